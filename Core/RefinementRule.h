@@ -55,10 +55,13 @@ public:
    * `spline` must be the one this object was made for or last returned.
    */
   virtual void Refine(TSpline& spline, const std::vector<RefinementMark>& marks) = 0;
+
+  /// A copy with its mesh, to try a refinement and take it back.
+  virtual std::unique_ptr<RefinementRule> Clone() const = 0;
 };
 
 /// Semi-standard T-splines by knot insertion (KnotInsertionRule.cpp).
-std::unique_ptr<RefinementRule> MakeKnotInsertionRule(const TSpline& tensorProduct);
+std::unique_ptr<RefinementRule> MakeKnotInsertionRule(const TSpline& spline);
 
 /// Analysis-suitable T-splines by bisection with a closure (AnalysisSuitableRule.cpp).
 std::unique_ptr<RefinementRule> MakeAnalysisSuitableRule(const TSpline& tensorProduct);

@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The compact rule: semi-standard T-splines whose blending functions have minimal support on a box
+// mesh. A mark inserts a knot face as large as the marked function's cross-section; a function that
+// a face crosses completely is split by knot insertion, weight and control point carried along, and
+// equal functions merge. Mesh and functions determine each other, so the order of the splits does
+// not matter (Dokken, Lyche, Pettersen 2013, who study this mesh for polynomial spline spaces;
+// Sederberg et al. 2004 for the weights).
+#include "BlendingFunctionMap.h"
+#include "KnotFaces.h"
+#include "RefinementRule.h"
+
+#include <algorithm>
+#include <deque>
+#include <numeric>
+
+namespace trivariate
+{
+namespace
+{
+// Functions under refinement with their homogeneous rows (w, w p), addressed by their knots.
+class FunctionPool
+{
+public:
+  FunctionPool(int components)
+    : Stride(components + 1)
+    , Row(components + 1)
+  {
+  }
+
+  // Adds factor * row to the function; returns its id and whether it is new.
+  std::pair<Index, bool> Add(const BlendingFunction& function, double factor, const double* row)
+  {
+    const auto [id, isNew] = this->Ids.Insert(function, static_cast<Index>(this->Functions.size()));
+    if (isNew)
+    {
+      this->Functions.push_back(function);
+      this->Alive.push_back(true);
+      this->Rows.resize(this->Rows.size() + this->Stride, 0.0);
+    }
+    double* target = &this->Rows[id * this->Stride];
+    for (int c = 0; c < this->Stride; ++c)
+    {
+      target[c] += factor * row[c];
+    }
+    return { id, isNew };
+  }
+
+  // Takes a function out and returns its row, which stays valid until the next Remove.
+  const double* Remove(Index id)
+  {
+    this->Ids.Erase(this->Functions[id]);
+    this->Alive[id] = false;
+    std::copy_n(&this->Rows[id * this->Stride], this->Stride, this->Row.begin());
+    return this->Row.data();
+  }
+
+  int Stride;
+  std::vector<BlendingFunction> Functions;
+  std::vector<char> Alive;
+  std::vector<double> Rows;
+
+private:
+  BlendingFunctionMap Ids;
+  std::vector<double> Row;
+};
+
+// Interleaves the bits of the three central knots, so that neighbours in space are neighbours in
+// memory (and in the file).
+std::uint64_t MortonCode(const BlendingFunction& f)
+{
+  std::uint64_t code = 0;
+  for (int bit = 20; bit >= 0; --bit)
+  {
+    for (int a = 2; a >= 0; --a)
+    {
+      code = (code << 1) | ((static_cast<std::uint64_t>(f[a][2]) >> bit) & 1u);
+    }
+  }
+  return code;
+}
+
+class KnotInsertionRule : public RefinementRule
+{
+public:
+  explicit KnotInsertionRule(const TSpline& spline)
+    : Faces(spline)
+  {
+  }
+
+  std::unique_ptr<RefinementRule> Clone() const override
+  {
+    return std::make_unique<KnotInsertionRule>(*this);
+  }
+
+  void Refine(TSpline& spline, const std::vector<RefinementMark>& marks) override
+  {
+    for (const RefinementMark& mark : marks)
+    {
+      this->Faces.Insert(spline.Functions[mark.Function], mark.Direction, mark.Knot);
+    }
+    FunctionPool pool(spline.Components);
+    std::vector<double> row(pool.Stride);
+    for (Index i = 0; i < spline.Size(); ++i)
+    {
+      row[0] = spline.Weights[i];
+      for (int c = 0; c < spline.Components; ++c)
+      {
+        row[c + 1] = spline.Weights[i] * spline.ControlPoint(i)[c];
+      }
+      pool.Add(spline.Functions[i], 1.0, row.data());
+    }
+    this->SplitAll(spline.KnotLines, pool);
+    this->Collect(pool, spline);
+  }
+
+private:
+  // First in, first out: large functions are split before the small ones that they would add to.
+  void SplitAll(const std::array<KnotLine, 3>& lines, FunctionPool& pool) const
+  {
+    std::deque<Index> waiting(pool.Functions.size());
+    std::iota(waiting.begin(), waiting.end(), Index(0));
+    for (; !waiting.empty(); waiting.pop_front())
+    {
+      const Index id = waiting.front();
+      const BlendingFunction parent = pool.Functions[id];
+      int direction = 0;
+      const std::int32_t knot = this->Faces.FindCrossing(parent, direction);
+      if (knot < 0)
+      {
+        continue;
+      }
+      const KnotLine& line = lines[direction];
+      const LocalKnots& k = parent[direction];
+      const KnotInsertion factor =
+        InsertKnot({ line[k[0]], line[k[1]], line[k[2]], line[k[3]], line[k[4]] }, line[knot]);
+      std::array<std::int32_t, 6> all{ k[0], k[1], k[2], k[3], k[4], knot };
+      std::sort(all.begin(), all.end());
+      BlendingFunction first = parent, second = parent;
+      std::copy_n(all.begin(), 5, first[direction].begin());
+      std::copy_n(all.begin() + 1, 5, second[direction].begin());
+
+      const double* row = pool.Remove(id);
+      for (const auto& [child, share] :
+        { std::make_pair(first, factor.First), std::make_pair(second, factor.Second) })
+      {
+        const auto [childId, isNew] = pool.Add(child, share, row);
+        if (isNew)
+        {
+          waiting.push_back(childId);
+        }
+      }
+    }
+  }
+
+  static void Collect(const FunctionPool& pool, TSpline& spline)
+  {
+    std::vector<std::pair<std::uint64_t, Index>> order;
+    for (std::size_t id = 0; id < pool.Functions.size(); ++id)
+    {
+      if (pool.Alive[id])
+      {
+        order.emplace_back(MortonCode(pool.Functions[id]), static_cast<Index>(id));
+      }
+    }
+    std::sort(order.begin(), order.end(),
+      [&pool](const auto& a, const auto& b)
+      {
+        return a.first != b.first ? a.first < b.first
+                                  : pool.Functions[a.second] < pool.Functions[b.second];
+      });
+    spline.Functions.clear();
+    spline.Weights.clear();
+    spline.ControlPoints.clear();
+    for (const auto& entry : order)
+    {
+      const double* row = &pool.Rows[entry.second * pool.Stride];
+      spline.Functions.push_back(pool.Functions[entry.second]);
+      spline.Weights.push_back(row[0]);
+      for (int c = 1; c < pool.Stride; ++c)
+      {
+        spline.ControlPoints.push_back(row[c] / row[0]);
+      }
+    }
+  }
+
+  KnotFaces Faces;
+};
+}
+
+//------------------------------------------------------------------------------
+std::unique_ptr<RefinementRule> MakeKnotInsertionRule(const TSpline& spline)
+{
+  return std::make_unique<KnotInsertionRule>(spline);
+}
+}
