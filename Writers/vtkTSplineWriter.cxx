@@ -1,0 +1,7 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTSplineWriter.h"
+
+#include "vtkObjectFactory.h"
+
+vtkStandardNewMacro(vtkTSplineWriter);
