@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The Bezier cells of a T-spline: boxes in parameter space on which every blending function is one
+ * tricubic polynomial.
+ *
+ * Each knot of a function is a face in parameter space that spans the function's support in the two
+ * other directions; the cells are the regions between all those faces. The faces of a T-spline that
+ * was refined by one of our rules always end on other faces, so the regions are boxes and the cells
+ * are as few as can be. Of any other set of functions a region that is no box is cut further.
+ * Regions in which no function is active are left out.
+ *
+ * Built from the knots alone: control points and weights may change without rebuilding. Cost: time
+ * proportional to the number of unit boxes of the index grid (the product over the directions of
+ * the number of knots in use; about 3 ns each) plus the number of pairs of a cell and an active
+ * function (about 70 a cell), memory proportional to the cells and those pairs.
+ */
+#ifndef trivariate_BezierMesh_h
+#define trivariate_BezierMesh_h
+
+#include "Execution.h"
+#include "TSpline.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace trivariate
+{
+/// A box of the index grid: knots Low[a] to High[a] of the knot line of direction a.
+struct IndexBox
+{
+  std::array<std::int32_t, 3> Low, High;
+};
+
+/// A run of ids in memory, for range-based for.
+struct IdRange
+{
+  const std::int32_t* First;
+  const std::int32_t* Last;
+
+  const std::int32_t* begin() const { return this->First; }
+  const std::int32_t* end() const { return this->Last; }
+  Index size() const { return this->Last - this->First; }
+};
+
+class BezierMesh
+{
+public:
+  /// Limits that keep a hostile spline from exhausting time or memory, generous for sane ones.
+  static constexpr Index MaximumGrid = Index(1) << 31;   ///< unit boxes of the index grid
+  static constexpr Index MaximumCellsPerFunction = 64;   ///< on average; about 1 to 4 are usual
+  static constexpr Index MaximumFunctionsPerCell = 1024; ///< on average; about 70 are usual
+
+  /**
+   * `spline` must be valid (see Validate). Throws std::length_error with a sentence for the user
+   * when a limit is exceeded, Aborted when stopped.
+   */
+  explicit BezierMesh(const TSpline& spline, const Execution& execution = {});
+
+  /// Number of cells.
+  Index Size() const { return static_cast<Index>(this->Boxes.size()); }
+
+  /// The knots that bound the cell.
+  const IndexBox& Box(Index cell) const { return this->Boxes[cell]; }
+
+  /// The cell in parameter space: u low, u high, v low, v high, w low, w high.
+  std::array<double, 6> Bounds(Index cell) const;
+
+  /// How often the coarsest cell was halved to get this one: the sum over the directions of the
+  /// logarithm to the base two of the ratio of their widths in knots, each rounded to the nearest.
+  int Level(Index cell) const { return this->Levels[cell]; }
+
+  /// The functions that do not vanish on the cell, each once, in the order of Sorted().
+  IdRange ActiveFunctions(Index cell) const
+  {
+    const std::int32_t* ids = this->Active.data();
+    return { ids + this->ActiveOffsets[cell], ids + this->ActiveOffsets[cell + 1] };
+  }
+
+  /// The cell that holds a point of parameter space, -1 if there is none. Cells are closed at their
+  /// low ends and open at their high ends, except at the end of the domain.
+  Index FindCell(double u, double v, double w) const
+  {
+    return this->FindUnit({ this->FindSpan(0, u), this->FindSpan(1, v), this->FindSpan(2, w) });
+  }
+
+  /// Index of the knot interval of direction a that holds x (half open, closed at the end of the
+  /// line); -1 outside.
+  std::int32_t FindSpan(int a, double x) const;
+
+  const std::array<KnotLine, 3>& KnotLines() const { return this->Lines; }
+
+  /**
+   * The distinct local knot vectors of direction a, ascending, and for each function which of them
+   * it has. Many functions share one: what belongs to it is computed once.
+   */
+  const std::vector<LocalKnots>& Univariate(int a) const { return this->UnivariateKnots[a]; }
+  std::int32_t UnivariateOf(Index function, int a) const
+  {
+    return this->UnivariateIds[function][a];
+  }
+
+private:
+  std::array<KnotLine, 3> Lines;
+  std::vector<IndexBox> Boxes;
+  std::vector<std::int32_t> Levels;
+  std::vector<Index> ActiveOffsets;
+  std::vector<std::int32_t> Active;
+  std::array<std::vector<LocalKnots>, 3> UnivariateKnots;
+  std::vector<std::array<std::int32_t, 3>> UnivariateIds;
+
+  // For each direction: spans at equally spaced places, between which FindSpan bisects.
+  struct SpanTable
+  {
+    double Origin, InverseStep;
+    std::vector<std::int32_t> Spans;
+  };
+  std::array<SpanTable, 3> SpanTables;
+
+  // A tree with 4 x 4 x 4 entries a node over the index grid: an entry is a cell (>= 0), nothing
+  // (Nothing), or a node below (-2 - node). Depth is the number of its levels.
+  static constexpr std::int32_t Nothing = -1;
+  using Node = std::array<std::int32_t, 64>;
+  std::vector<Node> Tree;
+  int Depth = 1;
+
+  Index FindUnit(const std::array<std::int32_t, 3>& span) const;
+};
+}
+
+#endif
