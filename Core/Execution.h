@@ -44,6 +44,15 @@ struct Execution
       throw Aborted();
     }
   }
+
+  /// For a part of the work: the same, but what the part calls 0 to 1 is reported as from to to.
+  Execution Part(double from, double to) const
+  {
+    Execution part = *this;
+    part.Continue = [whole = this->Continue, from, to](
+                      double done) { return whole(from + (to - from) * done); };
+    return part;
+  }
 };
 }
 
