@@ -19,6 +19,7 @@
 #define trivariate_BezierMesh_h
 
 #include "Execution.h"
+#include "IndexBox.h"
 #include "TSpline.h"
 
 #include <array>
@@ -27,12 +28,6 @@
 
 namespace trivariate
 {
-/// A box of the index grid: knots Low[a] to High[a] of the knot line of direction a.
-struct IndexBox
-{
-  std::array<std::int32_t, 3> Low, High;
-};
-
 /// A run of ids in memory, for range-based for.
 struct IdRange
 {
@@ -71,7 +66,8 @@ public:
   /// logarithm to the base two of the ratio of their widths in knots, each rounded to the nearest.
   int Level(Index cell) const { return this->Levels[cell]; }
 
-  /// The functions that do not vanish on the cell, each once, in the order of Sorted().
+  /// The functions that do not vanish on the cell, each once, ascending by their univariate
+  /// functions in w, then v, then u (see UnivariateOf).
   IdRange ActiveFunctions(Index cell) const
   {
     const std::int32_t* ids = this->Active.data();
@@ -80,10 +76,7 @@ public:
 
   /// The cell that holds a point of parameter space, -1 if there is none. Cells are closed at their
   /// low ends and open at their high ends, except at the end of the domain.
-  Index FindCell(double u, double v, double w) const
-  {
-    return this->FindUnit({ this->FindSpan(0, u), this->FindSpan(1, v), this->FindSpan(2, w) });
-  }
+  Index FindCell(double u, double v, double w) const;
 
   /// Index of the knot interval of direction a that holds x (half open, closed at the end of the
   /// line); -1 outside.
@@ -118,14 +111,34 @@ private:
   };
   std::array<SpanTable, 3> SpanTables;
 
-  // A tree with 4 x 4 x 4 entries a node over the index grid: an entry is a cell (>= 0), nothing
-  // (Nothing), or a node below (-2 - node). Depth is the number of its levels.
+  // A tree of blocks of the index grid, each halved twice in every direction: an entry of a block
+  // is a cell (>= 0), Nothing, or the block below (-2 - its place in Tree). The root is the first
+  // one and its entries are 4^(Depth - 1) knots wide.
   static constexpr std::int32_t Nothing = -1;
-  using Node = std::array<std::int32_t, 64>;
-  std::vector<Node> Tree;
+  static constexpr std::size_t MaximumBlocks = std::size_t(1) << 23;
+  using Block = std::array<std::int32_t, 64>;
+  std::vector<Block> Tree;
   int Depth = 1;
 
-  Index FindUnit(const std::array<std::int32_t, 3>& span) const;
+  void BuildUnivariate(const TSpline& spline);
+  void BuildSpanTables();
+  void BuildLevels();
+  void BuildTree(const Execution& execution);
+  void BuildActive(const TSpline& spline, const Execution& execution);
+
+  // The place of a block in the index grid: its low corner, and its depth (1: entries are unit
+  // boxes).
+  struct Place
+  {
+    std::array<Index, 3> Low;
+    int Depth;
+  };
+  template <typename Visitor>
+  void VisitEntries(const IndexBox& box, const Place& place, Visitor&& visit) const;
+  void InsertIntoTree(std::int32_t cell, std::size_t block, const Place& place);
+  template <typename Visitor>
+  void VisitCells(
+    const IndexBox& box, std::size_t block, const Place& place, Visitor&& visit) const;
 };
 }
 

@@ -1,0 +1,328 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BezierMesh.h"
+
+#include "BoxPartition.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+namespace trivariate
+{
+namespace
+{
+// The share of the building time that the sweep takes, for progress.
+constexpr double SweepShare = 0.4;
+
+Execution Part(const Execution& whole, double from, double to)
+{
+  Execution part = whole;
+  part.Continue = [&whole, from, to](double done)
+  { return whole.Continue(from + (to - from) * done); };
+  return part;
+}
+
+// How often an index is halved to tell the entries of a block of this depth apart.
+constexpr int EntryShift(int depth)
+{
+  return 2 * (depth - 1);
+}
+}
+
+//------------------------------------------------------------------------------
+BezierMesh::BezierMesh(const TSpline& spline, const Execution& execution)
+  : Lines(spline.KnotLines)
+  , Boxes(PartitionIntoBoxes(spline, Part(execution, 0.0, SweepShare)))
+{
+  this->BuildUnivariate(spline);
+  this->BuildSpanTables();
+  this->BuildLevels();
+  this->BuildTree(Part(execution, SweepShare, 0.5));
+  this->BuildActive(spline, Part(execution, 0.5, 1.0));
+}
+
+//------------------------------------------------------------------------------
+std::array<double, 6> BezierMesh::Bounds(Index cell) const
+{
+  const IndexBox& box = this->Boxes[cell];
+  std::array<double, 6> bounds;
+  for (int a = 0; a < 3; ++a)
+  {
+    bounds[2 * a] = this->Lines[a][box.Low[a]];
+    bounds[2 * a + 1] = this->Lines[a][box.High[a]];
+  }
+  return bounds;
+}
+
+//------------------------------------------------------------------------------
+void BezierMesh::BuildUnivariate(const TSpline& spline)
+{
+  this->UnivariateIds.resize(spline.Functions.size());
+  for (int a = 0; a < 3; ++a)
+  {
+    std::vector<LocalKnots>& distinct = this->UnivariateKnots[a];
+    for (const BlendingFunction& f : spline.Functions)
+    {
+      distinct.push_back(f[a]);
+    }
+    std::sort(distinct.begin(), distinct.end());
+    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+    for (std::size_t i = 0; i < spline.Functions.size(); ++i)
+    {
+      const auto found = std::lower_bound(distinct.begin(), distinct.end(), spline.Functions[i][a]);
+      this->UnivariateIds[i][a] = static_cast<std::int32_t>(found - distinct.begin());
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void BezierMesh::BuildSpanTables()
+{
+  for (int a = 0; a < 3; ++a)
+  {
+    const KnotLine& line = this->Lines[a];
+    const std::size_t steps = 2 * line.size();
+    SpanTable& table = this->SpanTables[a];
+    table.Origin = line.front();
+    table.InverseStep = steps / (line.back() - line.front());
+    std::size_t span = 0;
+    for (std::size_t step = 0; step <= steps; ++step)
+    {
+      const double x = table.Origin + step / table.InverseStep;
+      while (span + 2 < line.size() && line[span + 1] <= x)
+      {
+        ++span;
+      }
+      table.Spans.push_back(static_cast<std::int32_t>(span));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+std::int32_t BezierMesh::FindSpan(int a, double x) const
+{
+  const KnotLine& line = this->Lines[a];
+  if (!(x >= line.front() && x <= line.back()))
+  {
+    return -1;
+  }
+  const SpanTable& table = this->SpanTables[a];
+  const auto step = std::min(
+    static_cast<std::size_t>((x - table.Origin) * table.InverseStep), table.Spans.size() - 2);
+  std::int32_t low = table.Spans[step];
+  while (line[low] > x) // the step was rounded up
+  {
+    --low;
+  }
+  std::int32_t high = std::max(table.Spans[step + 1], low);
+  while (low < high)
+  {
+    const std::int32_t middle = low + (high - low + 1) / 2;
+    (line[middle] <= x ? low : high) = line[middle] <= x ? middle : middle - 1;
+  }
+  return low;
+}
+
+//------------------------------------------------------------------------------
+void BezierMesh::BuildLevels()
+{
+  std::array<std::int32_t, 3> root = { 1, 1, 1 };
+  for (const IndexBox& box : this->Boxes)
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      root[a] = std::max(root[a], box.High[a] - box.Low[a]);
+    }
+  }
+  for (const IndexBox& box : this->Boxes)
+  {
+    int level = 0;
+    for (int a = 0; a < 3; ++a)
+    {
+      level += static_cast<int>(
+        std::lround(std::log2(static_cast<double>(root[a]) / (box.High[a] - box.Low[a]))));
+    }
+    this->Levels.push_back(level);
+  }
+}
+
+//------------------------------------------------------------------------------
+void BezierMesh::BuildTree(const Execution& execution)
+{
+  Index longest = 1;
+  for (const KnotLine& line : this->Lines)
+  {
+    longest = std::max(longest, static_cast<Index>(line.size()) - 1);
+  }
+  while ((Index(1) << (2 * this->Depth)) < longest)
+  {
+    ++this->Depth;
+  }
+  Block nothing;
+  nothing.fill(Nothing);
+  this->Tree.assign(1, nothing);
+  for (Index cell = 0; cell < this->Size(); ++cell)
+  {
+    if (cell % 4096 == 0)
+    {
+      execution.Check(static_cast<double>(cell) / this->Size());
+    }
+    this->InsertIntoTree(static_cast<std::int32_t>(cell), 0, { { 0, 0, 0 }, this->Depth });
+  }
+}
+
+//------------------------------------------------------------------------------
+// Calls visit(entry, low corner of the entry) for the entries of a block that overlap the box.
+template <typename Visitor>
+void BezierMesh::VisitEntries(const IndexBox& box, const Place& place, Visitor&& visit) const
+{
+  const int shift = EntryShift(place.Depth);
+  std::array<Index, 3> first, last;
+  for (int a = 0; a < 3; ++a)
+  {
+    first[a] = std::max<Index>(0, (box.Low[a] - place.Low[a]) >> shift);
+    last[a] = std::min<Index>(3, (box.High[a] - 1 - place.Low[a]) >> shift);
+  }
+  for (Index k = first[2]; k <= last[2]; ++k)
+  {
+    for (Index j = first[1]; j <= last[1]; ++j)
+    {
+      for (Index i = first[0]; i <= last[0]; ++i)
+      {
+        visit((k * 4 + j) * 4 + i, std::array<Index, 3>{ place.Low[0] + (i << shift),
+                                     place.Low[1] + (j << shift), place.Low[2] + (k << shift) });
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void BezierMesh::InsertIntoTree(std::int32_t cell, std::size_t block, const Place& place)
+{
+  const IndexBox& box = this->Boxes[cell];
+  const Index width = Index(1) << EntryShift(place.Depth);
+  this->VisitEntries(box, place,
+    [&](Index entry, const std::array<Index, 3>& low)
+    {
+      bool whole = true;
+      for (int a = 0; a < 3; ++a)
+      {
+        const Index end = static_cast<Index>(this->Lines[a].size()) - 1;
+        whole = whole && box.Low[a] <= low[a] && std::min(low[a] + width, end) <= box.High[a];
+      }
+      if (whole)
+      {
+        this->Tree[block][entry] = cell;
+        return;
+      }
+      if (this->Tree[block][entry] == Nothing)
+      {
+        if (this->Tree.size() >= MaximumBlocks)
+        {
+          throw std::length_error("The T-spline's Bezier cells are scattered too finely over its "
+                                  "knots to be located; its knots do not come from a T-mesh.");
+        }
+        this->Tree[block][entry] = -2 - static_cast<std::int32_t>(this->Tree.size());
+        this->Tree.emplace_back().fill(Nothing);
+      }
+      this->InsertIntoTree(cell, -2 - this->Tree[block][entry], { low, place.Depth - 1 });
+    });
+}
+
+//------------------------------------------------------------------------------
+// Calls visit(cell) once for each cell whose low corner lies in the box.
+template <typename Visitor>
+void BezierMesh::VisitCells(
+  const IndexBox& box, std::size_t block, const Place& place, Visitor&& visit) const
+{
+  this->VisitEntries(box, place,
+    [&](Index entry, const std::array<Index, 3>& low)
+    {
+      const std::int32_t found = this->Tree[block][entry];
+      if (found < Nothing)
+      {
+        this->VisitCells(box, -2 - found, { low, place.Depth - 1 }, visit);
+      }
+      else if (found != Nothing)
+      {
+        const auto& corner = this->Boxes[found].Low;
+        if (std::equal(low.begin(), low.end(), corner.begin()))
+        {
+          visit(found);
+        }
+      }
+    });
+}
+
+//------------------------------------------------------------------------------
+void BezierMesh::BuildActive(const TSpline& spline, const Execution& execution)
+{
+  std::vector<std::int32_t> order(spline.Functions.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+    [this](std::int32_t x, std::int32_t y)
+    {
+      const auto& p = this->UnivariateIds[x];
+      const auto& q = this->UnivariateIds[y];
+      return std::lexicographical_compare(p.rbegin(), p.rend(), q.rbegin(), q.rend());
+    });
+  double done = 0.0;
+  const auto forEachPair = [&](auto&& visit)
+  {
+    Index n = 0;
+    for (const std::int32_t i : order)
+    {
+      if (n++ % 1024 == 0)
+      {
+        execution.Check(done + 0.5 * n / spline.Size());
+      }
+      this->VisitCells(SupportOf(spline.Functions[i]), 0, { { 0, 0, 0 }, this->Depth },
+        [&visit, i](std::int32_t cell) { visit(i, cell); });
+    }
+    done += 0.5;
+  };
+
+  this->ActiveOffsets.assign(this->Size() + 1, 0);
+  const Index limit = MaximumFunctionsPerCell * std::max<Index>(this->Size(), 64);
+  Index pairs = 0;
+  forEachPair(
+    [&](std::int32_t, std::int32_t cell)
+    {
+      ++this->ActiveOffsets[cell + 1];
+      if (++pairs > limit)
+      {
+        throw std::length_error(
+          "More than " + std::to_string(MaximumFunctionsPerCell) +
+          " blending functions are active in the mean Bezier cell; the T-spline's knots do not "
+          "come from a T-mesh.");
+      }
+    });
+  std::partial_sum(
+    this->ActiveOffsets.begin(), this->ActiveOffsets.end(), this->ActiveOffsets.begin());
+  this->Active.resize(pairs);
+  std::vector<Index> next(this->ActiveOffsets.begin(), this->ActiveOffsets.end() - 1);
+  forEachPair([&](std::int32_t i, std::int32_t cell) { this->Active[next[cell]++] = i; });
+}
+
+//------------------------------------------------------------------------------
+Index BezierMesh::FindCell(double u, double v, double w) const
+{
+  const std::int32_t i = this->FindSpan(0, u);
+  const std::int32_t j = this->FindSpan(1, v);
+  const std::int32_t k = this->FindSpan(2, w);
+  if (i < 0 || j < 0 || k < 0)
+  {
+    return Nothing;
+  }
+  std::int32_t entry = -2;
+  for (int depth = this->Depth; entry < Nothing; --depth)
+  {
+    const int shift = EntryShift(depth);
+    const int quarters = (((k >> shift) & 3) * 4 + ((j >> shift) & 3)) * 4 + ((i >> shift) & 3);
+    entry = this->Tree[-2 - entry][quarters];
+  }
+  return entry;
+}
+}

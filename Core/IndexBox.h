@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// Boxes of knot indices: cells, and supports of blending functions.
+#ifndef trivariate_IndexBox_h
+#define trivariate_IndexBox_h
+
+#include "TSpline.h"
+
+namespace trivariate
+{
+/// From knot Low[a] to knot High[a] of the knot line of each direction a; as integers half open.
+struct IndexBox
+{
+  std::array<std::int32_t, 3> Low, High;
+
+  bool Overlaps(const IndexBox& other) const
+  {
+    return (this->Low[0] < other.High[0]) & (other.Low[0] < this->High[0]) &
+           (this->Low[1] < other.High[1]) & (other.Low[1] < this->High[1]) &
+           (this->Low[2] < other.High[2]) & (other.Low[2] < this->High[2]);
+  }
+};
+
+inline IndexBox SupportOf(const BlendingFunction& f)
+{
+  return { { f[0][0], f[1][0], f[2][0] }, { f[0][4], f[1][4], f[2][4] } };
+}
+}
+
+#endif
