@@ -2,6 +2,313 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTSplineFit.h"
 
+#include "Fit.h"
+#include "ImageSamples.h"
+#include "SMPExecution.h"
+#include "TSplineGrid.h"
+
+#include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTable.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+
+using namespace trivariate;
 
 vtkStandardNewMacro(vtkTSplineFit);
+vtkCxxSetObjectMacro(vtkTSplineFit, Controller, vtkMultiProcessController);
+
+namespace
+{
+//------------------------------------------------------------------------------
+// The chosen array and the further ones, each once; throws when one is missing.
+std::vector<vtkDataArray*> AttributeArrays(
+  vtkImageData* image, vtkDataArray* chosen, const std::vector<std::string>& further)
+{
+  if (!chosen)
+  {
+    throw std::invalid_argument(
+      "The image has no point array that was chosen; use SetInputArrayToProcess(0, ...).");
+  }
+  std::vector<vtkDataArray*> arrays = { chosen };
+  for (const std::string& name : further)
+  {
+    vtkDataArray* array = image->GetPointData()->GetArray(name.c_str());
+    if (!array)
+    {
+      throw std::invalid_argument("The image has no point array \"" + name + "\" to fit.");
+    }
+    if (std::find(arrays.begin(), arrays.end(), array) == arrays.end())
+    {
+      arrays.push_back(array);
+    }
+  }
+  return arrays;
+}
+
+//------------------------------------------------------------------------------
+vtkDataArray* MaskOf(vtkImageData* image, const std::string& name)
+{
+  if (name.empty() || name == "None")
+  {
+    return nullptr;
+  }
+  vtkDataArray* mask = image->GetPointData()->GetArray(name.c_str());
+  if (!mask)
+  {
+    throw std::invalid_argument("The image has no point array \"" + name + "\" for a mask.");
+  }
+  return mask;
+}
+
+//------------------------------------------------------------------------------
+// What the core would say in parameters, said in the user's words.
+void CheckExtent(const ImageSamples& samples)
+{
+  if (samples.Count() == 0)
+  {
+    throw std::invalid_argument("The image has no points.");
+  }
+  for (int a = 0; a < 3; ++a)
+  {
+    if (samples.Points(a) < 2)
+    {
+      throw std::invalid_argument("The image has " + std::to_string(samples.Points(0)) + " x " +
+                                  std::to_string(samples.Points(1)) + " x " +
+                                  std::to_string(samples.Points(2)) +
+                                  " points; a volume needs two or more along each axis.");
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TSplineModel ToModel(FitResult& result, const ImageSamples& samples)
+{
+  TSplineModel model;
+  model.Spline = std::move(result.Spline);
+  for (Index i = 0; i < model.Spline.Size(); ++i)
+  {
+    const std::array<double, 3> point = samples.ToPhysical(model.Spline.ControlPoint(i));
+    std::copy(point.begin(), point.end(), model.Spline.ControlPoint(i));
+  }
+  model.Attributes = samples.Attributes;
+  model.Segment.assign(model.Spline.Size(), 0);
+  model.Block.assign(model.Spline.Size(), 0);
+  std::copy(result.RootCells.begin(), result.RootCells.end(), model.RootCells.begin());
+  return model;
+}
+
+//------------------------------------------------------------------------------
+void ToTable(const std::vector<FitRound>& rounds, vtkTable* table)
+{
+  vtkNew<vtkIdTypeArray> controlPoints;
+  controlPoints->SetName("ControlPoints");
+  vtkNew<vtkDoubleArray> rms, maximumError, seconds;
+  rms->SetName("RMS");
+  maximumError->SetName("MaximumError");
+  seconds->SetName("Seconds");
+  for (const FitRound& round : rounds)
+  {
+    controlPoints->InsertNextValue(round.ControlPoints);
+    rms->InsertNextValue(100.0 * round.Rms);
+    maximumError->InsertNextValue(round.MaximumError);
+    seconds->InsertNextValue(round.Seconds);
+  }
+  table->AddColumn(controlPoints);
+  table->AddColumn(rms);
+  table->AddColumn(maximumError);
+  table->AddColumn(seconds);
+}
+}
+
+//------------------------------------------------------------------------------
+vtkTSplineFit::vtkTSplineFit()
+{
+  this->SetNumberOfOutputPorts(2);
+  this->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
+  this->SetController(vtkMultiProcessController::GetGlobalController());
+}
+
+vtkTSplineFit::~vtkTSplineFit()
+{
+  this->SetController(nullptr);
+}
+
+//------------------------------------------------------------------------------
+void vtkTSplineFit::AddAttribute(const char* name)
+{
+  if (name && *name)
+  {
+    this->Attributes.emplace_back(name);
+    this->Modified();
+  }
+}
+
+void vtkTSplineFit::ClearAttributes()
+{
+  if (!this->Attributes.empty())
+  {
+    this->Attributes.clear();
+    this->Modified();
+  }
+}
+
+const char* vtkTSplineFit::GetAttribute(int i) const
+{
+  return i >= 0 && i < this->GetNumberOfAttributes() ? this->Attributes[i].c_str() : nullptr;
+}
+
+void vtkTSplineFit::SetMaskArray(const char* name)
+{
+  const std::string wanted = name ? name : "";
+  if (wanted != this->MaskArray)
+  {
+    this->MaskArray = wanted;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+int vtkTSplineFit::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  return 1;
+}
+
+int vtkTSplineFit::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkUnstructuredGrid" : "vtkTable");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+// Whether every process was asked for its share of one fit.
+bool vtkTSplineFit::IsGathering(vtkInformationVector* outputVector)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* info = outputVector->GetInformationObject(0);
+  return this->Controller && this->Controller->GetNumberOfProcesses() > 1 &&
+         info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) == this->Controller->GetNumberOfProcesses();
+}
+
+//------------------------------------------------------------------------------
+int vtkTSplineFit::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* inInfo = inputVector[0]->GetInformationObject(0);
+  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  if (!this->IsGathering(outputVector))
+  {
+    inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+    inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+    inInfo->Set(Pipeline::UPDATE_EXTENT(), inInfo->Get(Pipeline::WHOLE_EXTENT()), 6);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkTSplineFit::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkImageData* input = vtkImageData::GetData(inputVector[0]);
+  vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector, 0);
+  vtkTable* rounds = vtkTable::GetData(outputVector, 1);
+  ImageSamples samples;
+  std::string fault;
+  try
+  {
+    if (input->GetNumberOfPoints() > 0)
+    {
+      samples = ReadSamples(input,
+        AttributeArrays(input, this->GetInputArrayToProcess(0, inputVector), this->Attributes),
+        MaskOf(input, this->MaskArray));
+    }
+  }
+  catch (const std::exception& error)
+  {
+    fault = error.what();
+  }
+  try
+  {
+    if (this->IsGathering(outputVector))
+    {
+      const bool sound = GatherSamples(samples, fault, this->Controller);
+      const int process = this->Controller->GetLocalProcessId();
+      if (sound && process > 0)
+      {
+        return 1;
+      }
+      if (sound)
+      {
+        vtkWarningMacro("The fit is one global solve: the pieces of "
+                        << this->Controller->GetNumberOfProcesses()
+                        << " processes were gathered to process 0.");
+      }
+      else if (fault.empty())
+      {
+        return 0; // the process at fault tells
+      }
+    }
+    if (!fault.empty())
+    {
+      throw std::invalid_argument(fault);
+    }
+    CheckExtent(samples);
+
+    FitOptions options;
+    options.Rule = static_cast<Refinement>(this->RefinementRule);
+    options.MaximumControlPoints = this->MaximumNumberOfControlPoints;
+    options.RmsTolerance = this->RMSTolerance / 100.0;
+    options.MaximumErrorTolerance = this->MaximumErrorTolerance;
+    FitResult result = FitGrid(samples.View(), options, SMPExecution(this));
+    TSplineToGrid(ToModel(result, samples), output);
+    ToTable(result.Rounds, rounds);
+  }
+  catch (const Aborted&)
+  {
+    return 1; // the executive empties the outputs
+  }
+  catch (const std::bad_alloc&)
+  {
+    vtkErrorMacro("Out of memory; crop or coarsen the image, or allow fewer than "
+                  << this->MaximumNumberOfControlPoints << " control points.");
+    return 0;
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkTSplineFit::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "RefinementRule: " << this->RefinementRule << "\n";
+  os << indent << "MaximumNumberOfControlPoints: " << this->MaximumNumberOfControlPoints << "\n";
+  os << indent << "RMSTolerance: " << this->RMSTolerance << "\n";
+  os << indent << "MaximumErrorTolerance: " << this->MaximumErrorTolerance << "\n";
+  os << indent << "Attributes:";
+  for (const std::string& name : this->Attributes)
+  {
+    os << " " << name;
+  }
+  os << "\n" << indent << "MaskArray: " << this->MaskArray << "\n";
+  os << indent << "Controller: " << this->Controller << "\n";
+}

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Point arrays of an image as the core's samples, from one process or gathered from many.
+ */
+#ifndef ImageSamples_h
+#define ImageSamples_h
+
+#include "Fit.h"
+#include "TSplineModel.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+class vtkDataArray;
+class vtkImageData;
+class vtkMultiProcessController;
+
+namespace trivariate
+{
+struct ImageSamples
+{
+  /// First and last index along i, j, k; last < first: no points.
+  std::array<int, 6> Extent = { 0, -1, 0, -1, 0, -1 };
+  std::array<double, 16> IndexToPhysical = {}; ///< affine, by rows, for the indices of Extent
+  std::vector<TSplineAttribute> Attributes;
+  std::vector<double> Values;     ///< one block of all points a component, i runs fastest
+  std::vector<std::uint8_t> Mask; ///< empty: all points count
+
+  Index Points(int axis) const { return this->Extent[2 * axis + 1] - this->Extent[2 * axis] + 1; }
+  Index Count() const;
+  int Components() const;
+
+  /// Without a copy; valid as long as this object is and stays as it is.
+  GridSamples View() const;
+
+  /// The point in space of the parameter (u, v, w), which counts from the first index.
+  std::array<double, 3> ToPhysical(const double* parameter) const;
+};
+
+/**
+ * Copies the arrays of `image`, which must have as many tuples as the image has points; `mask` may
+ * be null. An array without a name is called ImageScalars. Throws std::invalid_argument with a
+ * sentence for the user.
+ */
+ImageSamples ReadSamples(
+  vtkImageData* image, const std::vector<vtkDataArray*>& arrays, vtkDataArray* mask);
+
+/**
+ * Collective. Process 0 gets the samples of all, the others an empty object; pieces may overlap.
+ * `fault` is why this process has no samples, empty when all is well; returns whether it was empty
+ * everywhere. Memory of process 0: twice its result. Throws std::invalid_argument (on all
+ * processes) when the pieces do not have the same arrays.
+ */
+bool GatherSamples(
+  ImageSamples& samples, const std::string& fault, vtkMultiProcessController* controller);
+}
+
+#endif
