@@ -36,12 +36,13 @@ public:
     std::swap(this->Close, other.Close);
     return *this;
   }
-  ~Handle()
+  ~Handle() { this->Reset(); }
+
+  /// Closes it now; negative when that failed.
+  herr_t Reset()
   {
-    if (this->Id >= 0)
-    {
-      this->Close(this->Id);
-    }
+    const hid_t id = std::exchange(this->Id, -1);
+    return id >= 0 ? this->Close(id) : 0;
   }
 
   operator hid_t() const { return this->Id; }

@@ -20,6 +20,8 @@ namespace
 using hdf5::Handle;
 using hdf5::Require;
 
+const char* const NoHdf5 = "It is no HDF5 file, or it is damaged or cut short";
+
 //------------------------------------------------------------------------------
 // The size of a regular file. Anything else (a folder, a pipe, a device) is refused here, since
 // opening it might never return.
@@ -43,7 +45,9 @@ Handle OpenFile(const std::string& path)
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   // Many network file systems know no locks, and what rename replaces needs none.
   H5Pset_file_locking(access, false, true);
-  return { H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose };
+  Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
+  Require(bool(file), NoHdf5);
+  return file;
 }
 
 //------------------------------------------------------------------------------
@@ -51,8 +55,10 @@ Handle OpenImage(const void* bytes, std::size_t size)
 {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fapl_core(access, 1 << 16, false);
-  H5Pset_file_image(access, const_cast<void*>(bytes), size);
-  return { H5Fopen("image.tspline", H5F_ACC_RDONLY, access), H5Fclose };
+  Require(H5Pset_file_image(access, const_cast<void*>(bytes), size) >= 0, NoHdf5);
+  Handle file(H5Fopen("image.tspline", H5F_ACC_RDONLY, access), H5Fclose);
+  Require(bool(file), NoHdf5);
+  return file;
 }
 
 //------------------------------------------------------------------------------
@@ -157,7 +163,10 @@ TSplineModel ReadModel(
   hid_t file, std::uint64_t size, double maximumBytes, const Execution& execution)
 {
   const std::string identityFault = IdentityFault(file);
-  Require(identityFault.empty(), identityFault);
+  if (!identityFault.empty())
+  {
+    throw std::runtime_error(identityFault);
+  }
 
   TSplineModel model;
   TSpline& spline = model.Spline;
@@ -200,7 +209,7 @@ bool IsTSplineFile(const std::string& path)
   {
     RegularFileSize(path);
     const Handle file = OpenFile(path);
-    return file && ReadString(file, file::Format) == file::FormatName;
+    return ReadString(file, file::Format) == file::FormatName;
   }
   catch (const std::runtime_error&)
   {
@@ -215,7 +224,6 @@ TSplineModel ReadTSplineFile(
   const hdf5::Quiet quiet;
   const std::uint64_t size = RegularFileSize(path);
   const Handle file = OpenFile(path);
-  Require(bool(file), "It is no HDF5 file, or it is damaged or cut short.");
   return ReadModel(file, size, maximumBytes, execution);
 }
 
@@ -224,8 +232,7 @@ TSplineModel ParseTSplineFile(
   const void* bytes, std::size_t size, double maximumBytes, const Execution& execution)
 {
   const hdf5::Quiet quiet;
-  const Handle file = size > 0 ? OpenImage(bytes, size) : Handle();
-  Require(bool(file), "It is no HDF5 file, or it is damaged or cut short.");
+  const Handle file = OpenImage(bytes, size);
   return ReadModel(file, size, maximumBytes, execution);
 }
 }

@@ -6,6 +6,7 @@
 #include "TSplineFileFormat.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace trivariate
 {
@@ -28,11 +29,49 @@ void Checked(herr_t status)
 }
 
 //------------------------------------------------------------------------------
+// Memory of `size` bytes in the vector at `data`; null when there is none.
+void* Resize(void* data, std::size_t size)
+{
+  auto& bytes = *static_cast<std::vector<char>*>(data);
+  try
+  {
+    bytes.resize(size);
+  }
+  catch (const std::exception&)
+  {
+    return nullptr; // HDF5 is C: it wants no exceptions
+  }
+  return bytes.data();
+}
+
+//------------------------------------------------------------------------------
+// Where HDF5 keeps a file in memory: the functions that it calls instead of malloc and free. Unlike
+// a copy asked for with H5Fget_file_image (whose superblock has a wrong checksum in HDF5 1.10), the
+// bytes are those of a file that was closed.
+H5FD_file_image_callbacks_t KeepIn(std::vector<char>& bytes)
+{
+  H5FD_file_image_callbacks_t calls = {};
+  calls.image_malloc = [](std::size_t size, H5FD_file_image_op_t, void* data) -> void*
+  { return Resize(data, size); };
+  calls.image_memcpy = [](void* to, const void* from, std::size_t size, H5FD_file_image_op_t, void*)
+  { return std::memcpy(to, from, size); };
+  calls.image_realloc = [](void*, std::size_t size, H5FD_file_image_op_t, void* data) -> void*
+  { return Resize(data, size); };
+  calls.image_free = [](void*, H5FD_file_image_op_t, void*) -> herr_t { return 0; };
+  calls.udata_copy = [](void* data) { return data; };
+  calls.udata_free = [](void*) -> herr_t { return 0; };
+  calls.udata = &bytes;
+  return calls;
+}
+
+//------------------------------------------------------------------------------
 // An HDF5 file in memory. Format 1.10 has checksums on all of its own structures; without
 // timestamps the same data are the same bytes.
-Handle CreateImage()
+Handle CreateImage(std::vector<char>& bytes)
 {
   const Handle access = Checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5FD_file_image_callbacks_t calls = KeepIn(bytes);
+  Checked(H5Pset_file_image_callbacks(access, &calls));
   Checked(H5Pset_fapl_core(access, std::size_t(1) << 22, false));
   Checked(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110));
   const Handle creation = Checked(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
@@ -185,17 +224,6 @@ void WriteDatasets(DatasetWriter& writer, const TSplineModel& model)
     first += components;
   }
 }
-
-//------------------------------------------------------------------------------
-std::vector<char> Bytes(hid_t file)
-{
-  Checked(H5Fflush(file, H5F_SCOPE_LOCAL));
-  const ssize_t size = H5Fget_file_image(file, nullptr, 0);
-  Require(size > 0, OutOfMemory);
-  std::vector<char> bytes(static_cast<std::size_t>(size));
-  Require(H5Fget_file_image(file, bytes.data(), bytes.size()) == size, OutOfMemory);
-  return bytes;
-}
 }
 
 //------------------------------------------------------------------------------
@@ -212,7 +240,8 @@ std::vector<char> TSplineFileImage(
     throw std::invalid_argument("The T-spline has no control points.");
   }
   const hdf5::Quiet quiet;
-  const Handle image = CreateImage();
+  std::vector<char> bytes;
+  Handle image = CreateImage(bytes);
   WriteString(image, file::Format, file::FormatName);
   WriteIntegers(image, file::Version, file::CurrentVersion.data(), file::CurrentVersion.size());
   if (model.RootCells[0] > 0)
@@ -226,6 +255,11 @@ std::vector<char> TSplineFileImage(
     static_cast<std::uint64_t>(model.Spline.Size()) * (15 + 3 + model.Spline.Components);
   DatasetWriter writer(image, compression, numbers, execution);
   WriteDatasets(writer, model);
-  return Bytes(image);
+
+  Checked(H5Fflush(image, H5F_SCOPE_LOCAL));
+  const ssize_t size = H5Fget_file_image(image, nullptr, 0);
+  Require(size > 0 && image.Reset() >= 0, OutOfMemory);
+  bytes.resize(static_cast<std::size_t>(size)); // HDF5 asks for memory in large steps
+  return bytes;
 }
 }
