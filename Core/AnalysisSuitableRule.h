@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Analysis-suitable refinement: cells are bisected with a closure (see BisectionMesh.h).
+ *
+ * All weights are one, any two functions are dual-compatible, and therefore the functions are
+ * linearly independent, sum to one and span every tricubic polynomial, and the spaces are nested.
+ *
+ * A mark (function, direction, knot) is met by bisecting the up to four cells at the function's
+ * axis around the knot until the knot lies on their faces. The level of a cell fixes the direction
+ * of its next bisection, so up to three in a row may be needed, the closure asks for more around
+ * them, and the finest level (cells one index wide) stops them: a mark is met unless it lies there.
+ */
+#ifndef trivariate_AnalysisSuitableRule_h
+#define trivariate_AnalysisSuitableRule_h
+
+#include "BisectionMesh.h"
+#include "RefinementRule.h"
+
+namespace trivariate
+{
+/**
+ * As MakeAnalysisSuitableRule(tensorProduct), with the choice of the closure. `tensorProduct` must
+ * come from MakeTensorProduct with strides that are powers of two (the cells that Refine bisects);
+ * otherwise std::invalid_argument.
+ *
+ * Refine throws std::out_of_range for a mark whose function or knot does not exist and
+ * std::invalid_argument for another spline than it was made for; neither changes anything. It takes
+ * a few microseconds for each function plus some ten for each that is new or changed. Functions
+ * that keep their knots keep their control points to the last bit.
+ */
+std::unique_ptr<RefinementRule> MakeAnalysisSuitableRule(
+  const TSpline& tensorProduct, Closure closure);
+}
+
+#endif
