@@ -14,33 +14,33 @@ namespace
 {
 using Cubic = std::array<double, 4>; // Bernstein coefficients
 
-// The Bernstein coefficients on the part [s, r] of the unit interval: de Casteljau's cut at r, then
-// the cut of what is left of it at s / r.
-Cubic Restrict(Cubic c, double s, double r)
+// A polynomial piece of a univariate function: c[0] + c[1] s + c[2] s^2 + c[3] s^3 at the parameter
+// Origin + s / Scale.
+struct Piece
 {
-  if (r < 1.0)
+  Cubic C;
+  double Origin, Scale;
+
+  double Value(double s) const
   {
-    for (int degree = 1; degree < 4; ++degree)
-    {
-      for (int i = 3; i >= degree; --i)
-      {
-        c[i] = (1.0 - r) * c[i - 1] + r * c[i];
-      }
-    }
+    return this->C[0] + s * (this->C[1] + s * (this->C[2] + s * this->C[3]));
   }
-  if (s > 0.0)
+  double Derivative(double s) const
   {
-    const double cut = s / r;
-    for (int degree = 1; degree < 4; ++degree)
-    {
-      for (int i = 0; i + degree < 4; ++i)
-      {
-        c[i] = (1.0 - cut) * c[i] + cut * c[i + 1];
-      }
-    }
+    return this->C[1] + s * (2.0 * this->C[2] + s * 3.0 * this->C[3]);
   }
-  return c;
-}
+
+  // Bernstein coefficients on [a, b] inside the piece, from the values and slopes at its ends.
+  Cubic Bernstein(double a, double b) const
+  {
+    const double s = (a - this->Origin) * this->Scale;
+    const double r = (b - this->Origin) * this->Scale;
+    const double third = (r - s) / 3.0;
+    const double first = this->Value(s);
+    const double last = this->Value(r);
+    return { first, first + third * this->Derivative(s), last - third * this->Derivative(r), last };
+  }
+};
 
 // The four polynomial pieces of every univariate function of one direction, each computed once.
 class UnivariatePieces
@@ -52,35 +52,32 @@ public:
   {
     for (const LocalKnots& k : this->Functions)
     {
-      Knots5 knots;
+      Knots5 t;
       std::transform(
-        k.begin(), k.end(), knots.begin(), [this](std::int32_t i) { return this->Line[i]; });
-      for (int piece = 0; piece < 4; ++piece)
+        k.begin(), k.end(), t.begin(), [this](std::int32_t i) { return this->Line[i]; });
+      for (int i = 0; i < 4; ++i)
       {
-        this->Pieces.push_back(k[piece] < k[piece + 1]
-                                 ? BernsteinOfBSpline(knots, knots[piece], knots[piece + 1])
-                                 : Cubic{});
+        if (t[i] < t[i + 1])
+        {
+          const Cubic b = BernsteinOfBSpline(t, t[i], t[i + 1]);
+          this->Pieces.push_back({ { b[0], 3.0 * (b[1] - b[0]), 3.0 * (b[2] - 2.0 * b[1] + b[0]),
+                                     b[3] - b[0] + 3.0 * (b[1] - b[2]) },
+            t[i], 1.0 / (t[i + 1] - t[i]) });
+        }
+        else
+        {
+          this->Pieces.push_back({});
+        }
       }
     }
   }
 
-  // The function's Bernstein coefficients between two knots inside one of its pieces.
-  Cubic Between(std::int32_t function, std::int32_t low, std::int32_t high) const
+  // The function's Bernstein coefficients between two knots that have no knot of it between them.
+  Cubic Bernstein(std::int32_t function, std::int32_t low, std::int32_t high) const
   {
     const LocalKnots& k = this->Functions[function];
-    int piece = 0;
-    while (k[piece + 1] <= low)
-    {
-      ++piece;
-    }
-    const Cubic& c = this->Pieces[4 * function + piece];
-    if (k[piece] == low && k[piece + 1] == high)
-    {
-      return c;
-    }
-    const double origin = this->Line[k[piece]];
-    const double length = this->Line[k[piece + 1]] - origin;
-    return Restrict(c, (this->Line[low] - origin) / length, (this->Line[high] - origin) / length);
+    const int piece = (k[1] <= low) + (k[2] <= low) + (k[3] <= low);
+    return this->Pieces[4 * function + piece].Bernstein(this->Line[low], this->Line[high]);
   }
 
   std::size_t Size() const { return this->Functions.size(); }
@@ -88,7 +85,7 @@ public:
 private:
   const KnotLine& Line;
   const std::vector<LocalKnots>& Functions;
-  std::vector<Cubic> Pieces;
+  std::vector<Piece> Pieces;
 };
 
 // The univariate functions of one direction on the interval of the cell at hand. Each is restricted
@@ -118,7 +115,7 @@ public:
     if (this->Stamps[function] != this->Stamp)
     {
       this->Stamps[function] = this->Stamp;
-      this->Coefficients[function] = this->Pieces.Between(function, this->Low, this->High);
+      this->Coefficients[function] = this->Pieces.Bernstein(function, this->Low, this->High);
     }
     return this->Coefficients[function].data();
   }
@@ -165,7 +162,7 @@ public:
   {
   }
 
-  void Extract(Index cell, double* out)
+  TRIVARIATE_CLONES void Extract(Index cell, double* out)
   {
     const IndexBox& box = this->Mesh.Box(cell);
     for (int a = 0; a < 3; ++a)

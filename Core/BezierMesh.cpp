@@ -5,6 +5,7 @@
 #include "BoxPartition.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -22,6 +23,28 @@ Execution Part(const Execution& whole, double from, double to)
   part.Continue = [&whole, from, to](double done)
   { return whole.Continue(from + (to - from) * done); };
   return part;
+}
+
+// The bits of entries first to last, each `width` bits wide.
+constexpr std::uint64_t Bits(Index first, Index last, int width)
+{
+  return first > last ? 0
+                      : (~std::uint64_t(0) >> (64 - (last - first + 1) * width)) << first * width;
+}
+
+// Place of the lowest bit set in a number that is not zero.
+inline int LowestBit(std::uint64_t bits)
+{
+#if defined(__GNUC__)
+  return __builtin_ctzll(bits);
+#else
+  int place = 0;
+  while (!((bits >> place) & 1))
+  {
+    ++place;
+  }
+  return place;
+#endif
 }
 
 // How often an index is halved to tell the entries of a block of this depth apart.
@@ -83,7 +106,7 @@ void BezierMesh::BuildSpanTables()
   for (int a = 0; a < 3; ++a)
   {
     const KnotLine& line = this->Lines[a];
-    const std::size_t steps = 2 * line.size();
+    const std::size_t steps = line.size() - 1; // an equally spaced line's own knots
     SpanTable& table = this->SpanTables[a];
     table.Origin = line.front();
     table.InverseStep = steps / (line.back() - line.front());
@@ -112,15 +135,21 @@ std::int32_t BezierMesh::FindSpan(int a, double x) const
   const auto step = std::min(
     static_cast<std::size_t>((x - table.Origin) * table.InverseStep), table.Spans.size() - 2);
   std::int32_t low = table.Spans[step];
-  while (line[low] > x) // the step was rounded up
+  for (std::int32_t high = table.Spans[step + 1]; low < high;)
+  {
+    const std::int32_t middle = low + (high - low + 1) / 2;
+    const bool above = line[middle] <= x;
+    low = above ? middle : low;
+    high = above ? high : middle - 1;
+  }
+  // Only where the step was rounded.
+  while (line[low] > x)
   {
     --low;
   }
-  std::int32_t high = std::max(table.Spans[step + 1], low);
-  while (low < high)
+  while (low + 2 < static_cast<std::int32_t>(line.size()) && line[low + 1] <= x)
   {
-    const std::int32_t middle = low + (high - low + 1) / 2;
-    (line[middle] <= x ? low : high) = line[middle] <= x ? middle : middle - 1;
+    ++low;
   }
   return low;
 }
@@ -160,9 +189,7 @@ void BezierMesh::BuildTree(const Execution& execution)
   {
     ++this->Depth;
   }
-  Block nothing;
-  nothing.fill(Nothing);
-  this->Tree.assign(1, nothing);
+  this->AddBlock();
   for (Index cell = 0; cell < this->Size(); ++cell)
   {
     if (cell % 4096 == 0)
@@ -174,9 +201,11 @@ void BezierMesh::BuildTree(const Execution& execution)
 }
 
 //------------------------------------------------------------------------------
-// Calls visit(entry, low corner of the entry) for the entries of a block that overlap the box.
+// Calls visit(entry, low corner of the entry) for those of some entries of a block (their bits set)
+// that overlap the box.
 template <typename Visitor>
-void BezierMesh::VisitEntries(const IndexBox& box, const Place& place, Visitor&& visit) const
+void BezierMesh::VisitEntries(
+  const IndexBox& box, const Place& place, std::uint64_t entries, Visitor&& visit) const
 {
   const int shift = EntryShift(place.Depth);
   std::array<Index, 3> first, last;
@@ -185,17 +214,31 @@ void BezierMesh::VisitEntries(const IndexBox& box, const Place& place, Visitor&&
     first[a] = std::max<Index>(0, (box.Low[a] - place.Low[a]) >> shift);
     last[a] = std::min<Index>(3, (box.High[a] - 1 - place.Low[a]) >> shift);
   }
-  for (Index k = first[2]; k <= last[2]; ++k)
+  entries &= Bits(first[0], last[0], 1) * 0x1111111111111111u;
+  entries &= Bits(first[1], last[1], 4) * 0x0001000100010001u;
+  entries &= Bits(first[2], last[2], 16);
+  for (; entries != 0; entries &= entries - 1)
   {
-    for (Index j = first[1]; j <= last[1]; ++j)
-    {
-      for (Index i = first[0]; i <= last[0]; ++i)
-      {
-        visit((k * 4 + j) * 4 + i, std::array<Index, 3>{ place.Low[0] + (i << shift),
-                                     place.Low[1] + (j << shift), place.Low[2] + (k << shift) });
-      }
-    }
+    const Index entry = LowestBit(entries);
+    visit(entry,
+      std::array<Index, 3>{ place.Low[0] + ((entry & 3) << shift),
+        place.Low[1] + (((entry >> 2) & 3) << shift), place.Low[2] + ((entry >> 4) << shift) });
   }
+}
+
+//------------------------------------------------------------------------------
+std::int32_t BezierMesh::AddBlock()
+{
+  if (this->Tree.size() >= MaximumBlocks)
+  {
+    throw std::length_error(
+      "The T-spline's Bezier cells are scattered too finely over its knots to "
+      "be located; its knots do not come from a T-mesh.");
+  }
+  this->Tree.emplace_back();
+  this->Tree.back().Entries.fill(Nothing);
+  this->Tree.back().Ways = 0;
+  return -1 - static_cast<std::int32_t>(this->Tree.size());
 }
 
 //------------------------------------------------------------------------------
@@ -203,31 +246,31 @@ void BezierMesh::InsertIntoTree(std::int32_t cell, std::size_t block, const Plac
 {
   const IndexBox& box = this->Boxes[cell];
   const Index width = Index(1) << EntryShift(place.Depth);
-  this->VisitEntries(box, place,
+  this->VisitEntries(box, place, ~std::uint64_t(0),
     [&](Index entry, const std::array<Index, 3>& low)
     {
-      bool whole = true;
+      bool whole = true, corner = true;
       for (int a = 0; a < 3; ++a)
       {
         const Index end = static_cast<Index>(this->Lines[a].size()) - 1;
         whole = whole && box.Low[a] <= low[a] && std::min(low[a] + width, end) <= box.High[a];
+        corner = corner && box.Low[a] == low[a];
+      }
+      if (!whole || corner)
+      {
+        this->Tree[block].Ways |= std::uint64_t(1) << entry;
       }
       if (whole)
       {
-        this->Tree[block][entry] = cell;
+        this->Tree[block].Entries[entry] = cell;
         return;
       }
-      if (this->Tree[block][entry] == Nothing)
+      if (this->Tree[block].Entries[entry] == Nothing)
       {
-        if (this->Tree.size() >= MaximumBlocks)
-        {
-          throw std::length_error("The T-spline's Bezier cells are scattered too finely over its "
-                                  "knots to be located; its knots do not come from a T-mesh.");
-        }
-        this->Tree[block][entry] = -2 - static_cast<std::int32_t>(this->Tree.size());
-        this->Tree.emplace_back().fill(Nothing);
+        const std::int32_t below = this->AddBlock();
+        this->Tree[block].Entries[entry] = below;
       }
-      this->InsertIntoTree(cell, -2 - this->Tree[block][entry], { low, place.Depth - 1 });
+      this->InsertIntoTree(cell, -2 - this->Tree[block].Entries[entry], { low, place.Depth - 1 });
     });
 }
 
@@ -237,21 +280,18 @@ template <typename Visitor>
 void BezierMesh::VisitCells(
   const IndexBox& box, std::size_t block, const Place& place, Visitor&& visit) const
 {
-  this->VisitEntries(box, place,
+  const Block& here = this->Tree[block];
+  this->VisitEntries(box, place, here.Ways,
     [&](Index entry, const std::array<Index, 3>& low)
     {
-      const std::int32_t found = this->Tree[block][entry];
+      const std::int32_t found = here.Entries[entry];
       if (found < Nothing)
       {
         this->VisitCells(box, -2 - found, { low, place.Depth - 1 }, visit);
       }
-      else if (found != Nothing)
+      else
       {
-        const auto& corner = this->Boxes[found].Low;
-        if (std::equal(low.begin(), low.end(), corner.begin()))
-        {
-          visit(found);
-        }
+        visit(found);
       }
     });
 }
@@ -268,42 +308,78 @@ void BezierMesh::BuildActive(const TSpline& spline, const Execution& execution)
       const auto& q = this->UnivariateIds[y];
       return std::lexicographical_compare(p.rbegin(), p.rend(), q.rbegin(), q.rend());
     });
-  double done = 0.0;
-  const auto forEachPair = [&](auto&& visit)
-  {
-    Index n = 0;
-    for (const std::int32_t i : order)
-    {
-      if (n++ % 1024 == 0)
-      {
-        execution.Check(done + 0.5 * n / spline.Size());
-      }
-      this->VisitCells(SupportOf(spline.Functions[i]), 0, { { 0, 0, 0 }, this->Depth },
-        [&visit, i](std::int32_t cell) { visit(i, cell); });
-    }
-    done += 0.5;
-  };
 
+  // The cells of each function, found in parallel ...
+  constexpr Index ChunkSize = 1024;
+  struct Chunk
+  {
+    std::vector<Index> Ends; // of each function's cells
+    std::vector<std::int32_t> Cells;
+  };
+  std::vector<Chunk> chunks((order.size() + ChunkSize - 1) / ChunkSize);
+  const Index limit = MaximumCellsInSupport * spline.Size();
+  std::atomic<Index> pairs{ 0 };
+  const auto find = [&](Index c)
+  {
+    Chunk& chunk = chunks[c];
+    const Index end = std::min<Index>((c + 1) * ChunkSize, order.size());
+    for (Index n = c * ChunkSize; n < end && pairs <= limit; ++n)
+    {
+      const std::size_t before = chunk.Cells.size();
+      this->VisitCells(SupportOf(spline.Functions[order[n]]), 0, { { 0, 0, 0 }, this->Depth },
+        [&chunk](std::int32_t cell) { chunk.Cells.push_back(cell); });
+      chunk.Ends.push_back(chunk.Cells.size());
+      pairs += chunk.Cells.size() - before;
+    }
+  };
+  constexpr Index Batch = 32; // chunks between two looks at the abort flag
+  const auto count = static_cast<Index>(chunks.size());
+  for (Index first = 0; first < count; first += Batch)
+  {
+    execution.Check(static_cast<double>(first) / count);
+    execution.ParallelFor(std::min(Batch, count - first),
+      [&](Index begin, Index end)
+      {
+        for (Index c = first + begin; c < first + end; ++c)
+        {
+          find(c);
+        }
+      });
+    if (pairs > limit)
+    {
+      throw std::length_error("The support of the mean blending function holds more than " +
+                              std::to_string(MaximumCellsInSupport) +
+                              " Bezier cells; the T-spline's knots do not come from a T-mesh.");
+    }
+  }
+
+  // ... and turned into the functions of each cell.
   this->ActiveOffsets.assign(this->Size() + 1, 0);
-  const Index limit = MaximumFunctionsPerCell * std::max<Index>(this->Size(), 64);
-  Index pairs = 0;
-  forEachPair(
-    [&](std::int32_t, std::int32_t cell)
+  for (const Chunk& chunk : chunks)
+  {
+    for (const std::int32_t cell : chunk.Cells)
     {
       ++this->ActiveOffsets[cell + 1];
-      if (++pairs > limit)
-      {
-        throw std::length_error(
-          "More than " + std::to_string(MaximumFunctionsPerCell) +
-          " blending functions are active in the mean Bezier cell; the T-spline's knots do not "
-          "come from a T-mesh.");
-      }
-    });
+    }
+  }
   std::partial_sum(
     this->ActiveOffsets.begin(), this->ActiveOffsets.end(), this->ActiveOffsets.begin());
   this->Active.resize(pairs);
   std::vector<Index> next(this->ActiveOffsets.begin(), this->ActiveOffsets.end() - 1);
-  forEachPair([&](std::int32_t i, std::int32_t cell) { this->Active[next[cell]++] = i; });
+  auto function = order.begin();
+  for (Chunk& chunk : chunks)
+  {
+    Index n = 0;
+    for (const Index end : chunk.Ends)
+    {
+      for (; n < end; ++n)
+      {
+        this->Active[next[chunk.Cells[n]]++] = *function;
+      }
+      ++function;
+    }
+    chunk = Chunk(); // frees as it goes
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -321,7 +397,7 @@ Index BezierMesh::FindCell(double u, double v, double w) const
   {
     const int shift = EntryShift(depth);
     const int quarters = (((k >> shift) & 3) * 4 + ((j >> shift) & 3)) * 4 + ((i >> shift) & 3);
-    entry = this->Tree[-2 - entry][quarters];
+    entry = this->Tree[-2 - entry].Entries[quarters];
   }
   return entry;
 }

@@ -12,8 +12,8 @@
  *
  * Built from the knots alone: control points and weights may change without rebuilding. Cost: time
  * proportional to the number of unit boxes of the index grid (the product over the directions of
- * the number of knots in use; about 3 ns each) plus the number of pairs of a cell and an active
- * function (about 70 a cell), memory proportional to the cells and those pairs.
+ * the number of knots in use) plus the number of pairs of a cell and an active
+ * function (64 to 100 a cell), memory proportional to the cells and those pairs.
  */
 #ifndef trivariate_BezierMesh_h
 #define trivariate_BezierMesh_h
@@ -43,9 +43,9 @@ class BezierMesh
 {
 public:
   /// Limits that keep a hostile spline from exhausting time or memory, generous for sane ones.
-  static constexpr Index MaximumGrid = Index(1) << 31;   ///< unit boxes of the index grid
-  static constexpr Index MaximumCellsPerFunction = 64;   ///< on average; about 1 to 4 are usual
-  static constexpr Index MaximumFunctionsPerCell = 1024; ///< on average; about 70 are usual
+  static constexpr Index MaximumGrid = Index(1) << 31; ///< unit boxes of the index grid
+  static constexpr Index MaximumCellsPerFunction = 64; ///< on average; 1 to 4 are usual
+  static constexpr Index MaximumCellsInSupport = 4096; ///< of a function, on average; 64 to 300
 
   /**
    * `spline` must be valid (see Validate). Throws std::length_error with a sentence for the user
@@ -53,7 +53,7 @@ public:
    */
   explicit BezierMesh(const TSpline& spline, const Execution& execution = {});
 
-  /// Number of cells.
+  /// Number of cells. They are numbered in ascending order of their intervals in w, then v, then u.
   Index Size() const { return static_cast<Index>(this->Boxes.size()); }
 
   /// The knots that bound the cell.
@@ -116,7 +116,12 @@ private:
   // one and its entries are 4^(Depth - 1) knots wide.
   static constexpr std::int32_t Nothing = -1;
   static constexpr std::size_t MaximumBlocks = std::size_t(1) << 23;
-  using Block = std::array<std::int32_t, 64>;
+  struct Block
+  {
+    std::array<std::int32_t, 64> Entries;
+    std::uint64_t
+      Ways; // bits of the entries that hold a cell's low corner or lead to a block below
+  };
   std::vector<Block> Tree;
   int Depth = 1;
 
@@ -134,7 +139,9 @@ private:
     int Depth;
   };
   template <typename Visitor>
-  void VisitEntries(const IndexBox& box, const Place& place, Visitor&& visit) const;
+  void VisitEntries(
+    const IndexBox& box, const Place& place, std::uint64_t entries, Visitor&& visit) const;
+  std::int32_t AddBlock(); // returns what an entry holds that leads to the new block
   void InsertIntoTree(std::int32_t cell, std::size_t block, const Place& place);
   template <typename Visitor>
   void VisitCells(

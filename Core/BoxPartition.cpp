@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 
 namespace trivariate
 {
@@ -341,8 +342,8 @@ std::vector<IndexBox> PartitionIntoBoxes(const TSpline& spline, const Execution&
   std::sort(boxes.begin(), boxes.end(),
     [](const IndexBox& x, const IndexBox& y)
     {
-      return std::lexicographical_compare(
-        x.Low.rbegin(), x.Low.rend(), y.Low.rbegin(), y.Low.rend());
+      return std::tie(x.Low[2], x.High[2], x.Low[1], x.High[1], x.Low[0]) <
+             std::tie(y.Low[2], y.High[2], y.Low[1], y.High[1], y.Low[0]);
     });
   return boxes;
 }

@@ -16,7 +16,7 @@
 namespace trivariate
 {
 /**
- * Boxes in ascending order of their low corners (w first, u last). No face crosses a box, and the
+ * Boxes in ascending order of their intervals in w, then v, then u. No face crosses a box, and the
  * supports' union is covered exactly. They are as few as can be when the regions between the faces
  * are boxes. Throws std::length_error beyond BezierMesh's limits.
  */

@@ -72,6 +72,9 @@ public:
   const double* Coefficients(Index cell) const { return &this->Bezier[cell * this->CellStride]; }
 
 private:
+  void EvaluateRange(
+    Index begin, Index end, const double* points, const EvaluatorOutput& output) const;
+
   const BezierMesh* Cells;
   int ComponentCount;
   bool HasDenominator;
