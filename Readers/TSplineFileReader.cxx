@@ -4,6 +4,7 @@
 
 #include "DatasetReader.h"
 #include "Hdf5.h"
+#include "Structure.h"
 #include "TSplineFileFormat.h"
 
 #include <sys/stat.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <limits>
 
 namespace trivariate
@@ -20,7 +22,7 @@ namespace
 using hdf5::Handle;
 using hdf5::Require;
 
-const char* const NoHdf5 = "It is no HDF5 file, or it is damaged or cut short";
+const char* const Damaged = "It is damaged";
 
 //------------------------------------------------------------------------------
 // The size of a regular file. Anything else (a folder, a pipe, a device) is refused here, since
@@ -42,22 +44,37 @@ std::uint64_t RegularFileSize(const std::string& path)
 //------------------------------------------------------------------------------
 Handle OpenFile(const std::string& path)
 {
+  std::ifstream stream(path, std::ios::binary);
+  const std::string fault = StructureFault(RegularFileSize(path),
+    [&stream](std::uint64_t offset, char* bytes, std::size_t count)
+    { stream.seekg(static_cast<std::streamoff>(offset)).read(bytes, count); });
+  if (!stream || !fault.empty())
+  {
+    throw std::runtime_error(stream ? fault : "It cannot be opened for reading.");
+  }
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   // Many network file systems know no locks, and what rename replaces needs none.
   H5Pset_file_locking(access, false, true);
   Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
-  Require(bool(file), NoHdf5);
+  Require(bool(file), Damaged);
   return file;
 }
 
 //------------------------------------------------------------------------------
 Handle OpenImage(const void* bytes, std::size_t size)
 {
+  const std::string fault =
+    StructureFault(size, [bytes](std::uint64_t offset, char* part, std::size_t count)
+      { std::memcpy(part, static_cast<const char*>(bytes) + offset, count); });
+  if (!fault.empty())
+  {
+    throw std::runtime_error(fault);
+  }
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fapl_core(access, 1 << 16, false);
-  Require(H5Pset_file_image(access, const_cast<void*>(bytes), size) >= 0, NoHdf5);
+  Require(H5Pset_file_image(access, const_cast<void*>(bytes), size) >= 0, Damaged);
   Handle file(H5Fopen("image.tspline", H5F_ACC_RDONLY, access), H5Fclose);
-  Require(bool(file), NoHdf5);
+  Require(bool(file), Damaged);
   return file;
 }
 
@@ -207,7 +224,6 @@ bool IsTSplineFile(const std::string& path)
   const hdf5::Quiet quiet;
   try
   {
-    RegularFileSize(path);
     const Handle file = OpenFile(path);
     return ReadString(file, file::Format) == file::FormatName;
   }

@@ -3,6 +3,7 @@
 #include "TSplineFileWriter.h"
 
 #include "Hdf5.h"
+#include "SuperBlock.h"
 #include "TSplineFileFormat.h"
 
 #include <algorithm>
@@ -256,10 +257,8 @@ std::vector<char> TSplineFileImage(
   DatasetWriter writer(image, compression, numbers, execution);
   WriteDatasets(writer, model);
 
-  Checked(H5Fflush(image, H5F_SCOPE_LOCAL));
-  const ssize_t size = H5Fget_file_image(image, nullptr, 0);
-  Require(size > 0 && image.Reset() >= 0, OutOfMemory);
-  bytes.resize(static_cast<std::size_t>(size)); // HDF5 asks for memory in large steps
+  Require(image.Reset() >= 0 && bytes.size() >= SuperBlock::Size, OutOfMemory);
+  bytes.resize(SuperBlock(bytes.data()).EndOfFile()); // HDF5 asks for memory in large steps
   return bytes;
 }
 }
