@@ -24,8 +24,9 @@ namespace trivariate
 struct GridSamples
 {
   std::array<Index, 3> Size;
-  int Components = 1;             ///< attributes, each fitted with the same blending functions
-  const double* Values = nullptr; ///< Components blocks, each of Size[0] * Size[1] * Size[2] numbers
+  int Components = 1; ///< attributes, each fitted with the same blending functions
+  const double* Values =
+    nullptr; ///< Components blocks, each of Size[0] * Size[1] * Size[2] numbers
   const std::uint8_t* Mask = nullptr; ///< voxels that count are non-zero; all count without a mask
 
   Index Count() const { return this->Size[0] * this->Size[1] * this->Size[2]; }
@@ -33,9 +34,9 @@ struct GridSamples
 
 enum class Refinement
 {
-  Compact,           ///< split by knot insertion, anisotropic, fewest control points
-  AnalysisSuitable,  ///< bisection with closure: dual-compatible, all weights one
-  Uniform,           ///< no refinement: one tensor-product fit with about the wanted control points
+  Compact,          ///< split by knot insertion, anisotropic, fewest control points
+  AnalysisSuitable, ///< bisection with closure: dual-compatible, all weights one
+  Uniform,          ///< no refinement: one tensor-product fit with about the wanted control points
 };
 
 struct FitOptions
@@ -61,7 +62,8 @@ struct FitResult
   /// Components: X, Y, Z (the parameter itself), then the attributes in the samples' own values.
   TSpline Spline;
   std::vector<FitRound> Rounds; ///< the last one belongs to Spline
-  std::array<int, 3> RootCells; ///< cells of the coarsest mesh; each halved as often as the lines allow
+  std::array<int, 3>
+    RootCells; ///< cells of the coarsest mesh; each halved as often as the lines allow
   /// Seconds spent, by topic ("evaluate", "refine", "assemble", "solve", ...).
   std::vector<std::pair<std::string, double>> Seconds;
 };

@@ -1,0 +1,307 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Fit.h"
+
+#include "GridFitSystem.h"
+#include "RefinementMarks.h"
+#include "RefinementRule.h"
+#include "UniformFit.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace trivariate
+{
+namespace
+{
+// Between refinements the system is only solved as far as the next refinement can tell; the last
+// solve goes on until the error stands still (measured on the volumes in Documentation/Results.md).
+constexpr double RoundTolerance = 1e-2;
+constexpr int RoundIterations = 60;
+constexpr double FinalTolerance = 1e-4;
+constexpr int FinalIterations = 100;
+
+// The smallest root mean square, as a share of the range, that rounding lets the fit tell from
+// zero.
+constexpr double RmsFloor = 1e-11;
+// Below this share the sum of squares from moments has lost its digits to cancellation.
+constexpr double RmsFromMoments = 1e-6;
+
+// The root mesh has about this many cells a direction; fewer where the limit asks for it.
+constexpr double RootCells = 4.0;
+
+void CheckInput(const GridSamples& samples, const FitOptions& options)
+{
+  const auto fail = [](const std::string& what) { throw std::invalid_argument(what); };
+  for (int a = 0; a < 3; ++a)
+  {
+    if (samples.Size[a] < 2)
+    {
+      fail("The volume has " + std::to_string(samples.Size[0]) + " x " +
+           std::to_string(samples.Size[1]) + " x " + std::to_string(samples.Size[2]) +
+           " samples; at least 2 are needed in every direction.");
+    }
+  }
+  if (options.MaximumControlPoints < 64)
+  {
+    fail("The limit is " + std::to_string(options.MaximumControlPoints) +
+         " control points; a trivariate cubic needs at least 64.");
+  }
+  if (!(options.RmsTolerance >= 0.0) || !(options.MaximumErrorTolerance >= 0.0))
+  {
+    fail("A tolerance is negative or not a number.");
+  }
+  bool any = false;
+  for (Index i = 0; i < samples.Count(); ++i)
+  {
+    if (samples.Mask && !samples.Mask[i])
+    {
+      continue;
+    }
+    any = true;
+    for (int c = 0; c < samples.Components; ++c)
+    {
+      if (!std::isfinite(samples.Values[c * samples.Count() + i]))
+      {
+        fail("The sample " + std::to_string(i % samples.Size[0]) + ", " +
+             std::to_string(i / samples.Size[0] % samples.Size[1]) + ", " +
+             std::to_string(i / samples.Size[0] / samples.Size[1]) + " is not a finite number.");
+      }
+    }
+  }
+  if (!any)
+  {
+    fail("The mask leaves no voxel to fit.");
+  }
+}
+
+Axes MakeAxes(const GridSamples& samples, const FitOptions& options)
+{
+  if (options.Rule == Refinement::Uniform)
+  {
+    return MakeUniformAxes(samples.Size, options.MaximumControlPoints);
+  }
+  for (double cells = RootCells;; cells /= 2.0)
+  {
+    Axes axes{ DyadicAxis::ForSamples(samples.Size[0], cells),
+      DyadicAxis::ForSamples(samples.Size[1], cells),
+      DyadicAxis::ForSamples(samples.Size[2], cells) };
+    if (axes[0].Functions(0) * axes[1].Functions(0) * axes[2].Functions(0) <=
+          options.MaximumControlPoints ||
+        cells <= 1.0)
+    {
+      return axes;
+    }
+  }
+}
+
+class AdaptiveFit
+{
+public:
+  AdaptiveFit(const GridSamples& samples, const FitOptions& options, const Execution& execution)
+    : Samples(samples)
+    , Options(options)
+    , Run(execution)
+    , Grid(MakeAxes(samples, options))
+    , System(samples, this->Grid, this->Run)
+    , Residuals(samples.Components, { { -1, -1, -1 }, {}, 0.0 })
+  {
+    this->Run.Continue = [this, &execution](double)
+    { return execution.Continue(this->Progress()); };
+    std::array<KnotLine, 3> lines;
+    std::array<int, 3> stride;
+    for (int a = 0; a < 3; ++a)
+    {
+      lines[a] = this->Grid[a].Line();
+      stride[a] = 1 << this->Grid[a].FinestLevel();
+      this->Result.RootCells[a] = this->Grid[a].Root();
+    }
+    this->Result.Spline = MakeTensorProduct(lines, stride, samples.Components);
+    this->RootSize = this->Result.Spline.Size();
+    for (Index i = 0; i < this->RootSize; ++i)
+    {
+      for (int c = 0; c < samples.Components; ++c)
+      {
+        this->Result.Spline.ControlPoint(i)[3 + c] = this->System.Mean(c);
+      }
+    }
+    this->Lap("moments");
+  }
+
+  FitResult Adapt()
+  {
+    TSpline& spline = this->Result.Spline;
+    std::unique_ptr<RefinementRule> rule;
+    if (this->Options.Rule == Refinement::Compact)
+    {
+      rule = MakeKnotInsertionRule(spline);
+    }
+    else if (this->Options.Rule == Refinement::AnalysisSuitable)
+    {
+      rule = MakeAnalysisSuitableRule(spline);
+    }
+    while (true)
+    {
+      const bool isRoot = spline.Size() == this->RootSize;
+      this->System.Update(spline);
+      this->Solve(RoundTolerance, isRoot ? FinalIterations : RoundIterations);
+      this->Measure(false);
+      if (this->IsGoodEnough() || !rule || !this->RefineOnce(rule))
+      {
+        break;
+      }
+    }
+    this->Solve(FinalTolerance, FinalIterations);
+    this->Result.Rounds.pop_back();
+    this->Measure(true);
+    return std::move(this->Result);
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  static double SecondsBetween(Clock::time_point a, Clock::time_point b)
+  {
+    return std::chrono::duration<double>(b - a).count();
+  }
+
+  // Control points grow by a constant factor a round, so their logarithm tells the way done.
+  double Progress() const
+  {
+    const double size = static_cast<double>(this->Result.Spline.Size());
+    const double most = static_cast<double>(this->Options.MaximumControlPoints);
+    return std::clamp(0.05 + 0.9 * std::log(size / this->RootSize + 0.01) /
+                               std::log(std::max(2.0, most / this->RootSize)),
+      0.0, 0.99);
+  }
+
+  void Lap(const char* topic)
+  {
+    const auto now = Clock::now();
+    auto& seconds = this->Result.Seconds;
+    auto entry = std::find_if(
+      seconds.begin(), seconds.end(), [topic](const auto& e) { return e.first == topic; });
+    if (entry == seconds.end())
+    {
+      entry = seconds.insert(seconds.end(), { topic, 0.0 });
+    }
+    entry->second += SecondsBetween(this->LastLap, now);
+    this->LastLap = now;
+  }
+
+  // The homogeneous coefficients w_i p_i of one attribute.
+  std::vector<double> Coefficients(int c) const
+  {
+    const TSpline& spline = this->Result.Spline;
+    std::vector<double> d(spline.Size());
+    for (Index i = 0; i < spline.Size(); ++i)
+    {
+      d[i] = spline.Weights[i] * spline.ControlPoint(i)[3 + c];
+    }
+    return d;
+  }
+
+  // Corrects the control points by what the normal equations make of the residual.
+  void Solve(double tolerance, int iterations)
+  {
+    TSpline& spline = this->Result.Spline;
+    const GramMatrix gram(spline, this->System.Table(), this->System.Mask(), this->Run);
+    this->Lap("assemble");
+    std::vector<double> correction;
+    for (int c = 0; c < this->Samples.Components; ++c)
+    {
+      Residual& residual = this->Residuals[c];
+      if (residual.Level != this->System.WorkLevel())
+      {
+        residual = this->System.ComputeResidual(c, this->Coefficients(c));
+      }
+      const std::vector<double> gradient = this->System.Gradient(residual);
+      this->Lap("moments");
+      gram.Solve(gradient, tolerance, iterations, correction, this->Run);
+      for (Index i = 0; i < spline.Size(); ++i)
+      {
+        spline.ControlPoint(i)[3 + c] += correction[i] / spline.Weights[i];
+      }
+      this->Lap("solve");
+      residual = this->System.ComputeResidual(c, this->Coefficients(c));
+      this->Lap("moments");
+    }
+  }
+
+  // Appends a round with its errors; at the voxels where moments do not tell enough.
+  void Measure(bool atVoxels)
+  {
+    const double voxels = static_cast<double>(this->System.NumberOfVoxels());
+    FitRound round{ this->Result.Spline.Size(), 0.0, 0.0, 0.0 };
+    for (int c = 0; c < this->Samples.Components; ++c)
+    {
+      const double range = this->System.Range(c);
+      const double rms = std::sqrt(this->Residuals[c].SquaredSum / voxels) / range;
+      if (atVoxels || this->Options.MaximumErrorTolerance > 0.0 || rms < RmsFromMoments)
+      {
+        const FitError error = this->System.Error(c, this->Coefficients(c));
+        round.Rms = std::max(round.Rms, error.Rms / range);
+        round.MaximumError = std::max(round.MaximumError, error.Maximum / range);
+      }
+      else
+      {
+        round.Rms = std::max(round.Rms, rms);
+        round.MaximumError = std::numeric_limits<double>::quiet_NaN();
+      }
+    }
+    this->Lap("evaluate");
+    round.Seconds = SecondsBetween(this->Start, this->LastLap);
+    this->Result.Rounds.push_back(round);
+    this->Run.Check(0.0);
+  }
+
+  bool IsGoodEnough() const
+  {
+    const FitRound& round = this->Result.Rounds.back();
+    const FitOptions& o = this->Options;
+    const bool wantsRms = o.RmsTolerance > 0.0, wantsMaximum = o.MaximumErrorTolerance > 0.0;
+    return round.Rms <= RmsFloor ||
+           ((wantsRms || wantsMaximum) && (!wantsRms || round.Rms <= o.RmsTolerance) &&
+             (!wantsMaximum || round.MaximumError <= o.MaximumErrorTolerance));
+  }
+
+  // False when nothing could be refined.
+  bool RefineOnce(std::unique_ptr<RefinementRule>& rule)
+  {
+    std::vector<SplitGain> gains;
+    for (int c = 0; c < this->Samples.Components; ++c)
+    {
+      const double range = this->System.Range(c);
+      this->System.AddGains(this->Residuals[c], 1.0 / (range * range), gains);
+    }
+    this->Lap("indicator");
+    const bool refined = this->Marks.Refine(
+      std::move(gains), this->Options.MaximumControlPoints, this->Result.Spline, rule);
+    this->Lap("refine");
+    this->Run.Check(0.0);
+    return refined;
+  }
+
+  const GridSamples& Samples;
+  const FitOptions& Options;
+  Execution Run;
+  Clock::time_point Start = Clock::now(), LastLap = Start;
+  FitResult Result;
+  Axes Grid;
+  GridFitSystem System;
+  std::vector<Residual> Residuals; // one for each attribute, of the spline as it is
+  RefinementMarks Marks;
+  Index RootSize = 1;
+};
+}
+
+//------------------------------------------------------------------------------
+FitResult FitGrid(const GridSamples& samples, const FitOptions& options, const Execution& execution)
+{
+  CheckInput(samples, options);
+  return AdaptiveFit(samples, options, execution).Adapt();
+}
+}

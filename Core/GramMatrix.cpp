@@ -1,0 +1,342 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GramMatrix.h"
+
+#include "SupportTree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace trivariate
+{
+namespace
+{
+// Functions that are summed, and relaxed, together in one order. The blocks are fixed, so no result
+// depends on how the range is cut among threads.
+constexpr Index BlockSize = 2048;
+
+// The sum of term(begin, end) over the blocks of [0, n).
+template <typename Term>
+double SumOverBlocks(Index n, const Execution& execution, const Term& term)
+{
+  std::vector<double> partial((n + BlockSize - 1) / BlockSize, 0.0);
+  execution.ParallelFor(static_cast<Index>(partial.size()),
+    [&](Index begin, Index end)
+    {
+      for (Index block = begin; block < end; ++block)
+      {
+        partial[block] = term(block * BlockSize, std::min(n, (block + 1) * BlockSize));
+      }
+    });
+  return std::accumulate(partial.begin(), partial.end(), 0.0);
+}
+
+// Products of all pairs of univariate functions of one direction over the samples.
+std::vector<float> UnivariateGram(
+  const std::vector<Univariate>& factors, const Execution& execution)
+{
+  const Index n = static_cast<Index>(factors.size());
+  std::vector<float> gram(n * n);
+  execution.ParallelFor(n,
+    [&factors, &gram, n](Index begin, Index end)
+    {
+      for (Index i = begin; i < end; ++i)
+      {
+        for (Index j = 0; j < n; ++j)
+        {
+          const bool overlap =
+            factors[i].Knots[0] < factors[j].Knots[4] && factors[j].Knots[0] < factors[i].Knots[4];
+          gram[i * n + j] =
+            overlap ? static_cast<float>(Dot(factors[i].Samples, factors[j].Samples)) : 0.0f;
+        }
+      }
+    });
+  return gram;
+}
+
+// The voxels that the supports of two functions share, [Begin, End) in each direction.
+struct VoxelBox
+{
+  std::array<Index, 3> Begin, End;
+
+  VoxelBox(const FunctionTable& table, Index i, Index j)
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      const SampledFunction& f = table.Factor(i, a).Samples;
+      const SampledFunction& g = table.Factor(j, a).Samples;
+      this->Begin[a] = std::max(f.first, g.first);
+      this->End[a] = std::min(f.first + static_cast<Index>(f.second.size()),
+        g.first + static_cast<Index>(g.second.size()));
+    }
+  }
+
+  Index Count() const
+  {
+    return std::max<Index>(0, this->End[0] - this->Begin[0]) *
+           std::max<Index>(0, this->End[1] - this->Begin[1]) *
+           std::max<Index>(0, this->End[2] - this->Begin[2]);
+  }
+};
+
+Index CountedVoxels(const VoxelMask& mask, const VoxelBox& box)
+{
+  const Index nx = mask.Size[0] + 1, ny = mask.Size[1] + 1;
+  Index sum = 0;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Index x = corner & 1 ? box.End[0] : box.Begin[0];
+    const Index y = corner & 2 ? box.End[1] : box.Begin[1];
+    const Index z = corner & 4 ? box.End[2] : box.Begin[2];
+    const int low = !(corner & 1) + !(corner & 2) + !(corner & 4);
+    sum += (low & 1 ? -1 : 1) * Index(mask.Counts[(z * ny + y) * nx + x]);
+  }
+  return sum;
+}
+
+// The product of two functions summed voxel by voxel, for pairs that the mask's border crosses.
+double MaskedDot(const VoxelMask& mask, const FunctionTable& table, Index i, Index j)
+{
+  const VoxelBox box(table, i, j);
+  const auto product = [&table, i, j](int a, Index at)
+  {
+    const SampledFunction& f = table.Factor(i, a).Samples;
+    const SampledFunction& g = table.Factor(j, a).Samples;
+    return f.second[at - f.first] * g.second[at - g.first];
+  };
+  std::vector<double> u;
+  for (Index x = box.Begin[0]; x < box.End[0]; ++x)
+  {
+    u.push_back(product(0, x));
+  }
+  double sum = 0.0;
+  for (Index z = box.Begin[2]; z < box.End[2]; ++z)
+  {
+    const double w = product(2, z);
+    for (Index y = box.Begin[1]; y < box.End[1]; ++y)
+    {
+      const std::uint8_t* row = mask.Values + (z * mask.Size[1] + y) * mask.Size[0] + box.Begin[0];
+      double line = 0.0;
+      for (std::size_t x = 0; x < u.size(); ++x)
+      {
+        line += row[x] ? u[x] : 0.0;
+      }
+      sum += w * product(1, y) * line;
+    }
+  }
+  return sum;
+}
+}
+
+//------------------------------------------------------------------------------
+void VoxelMask::Prepare(const Execution& execution)
+{
+  if (!this->Values)
+  {
+    return;
+  }
+  const Index nx = this->Size[0] + 1, ny = this->Size[1] + 1, nz = this->Size[2] + 1;
+  this->Counts.assign(nx * ny * nz, 0);
+  execution.ParallelFor(this->Size[2],
+    [this, nx, ny](Index begin, Index end)
+    {
+      for (Index z = begin; z < end; ++z)
+      {
+        for (Index y = 0; y < this->Size[1]; ++y)
+        {
+          std::int32_t line = 0;
+          for (Index x = 0; x < this->Size[0]; ++x)
+          {
+            line += this->Values[(z * this->Size[1] + y) * this->Size[0] + x] != 0;
+            const Index at = ((z + 1) * ny + y + 1) * nx + x + 1;
+            this->Counts[at] = this->Counts[at - nx] + line;
+          }
+        }
+      }
+    });
+  for (Index z = 1; z < nz; ++z)
+  {
+    for (Index at = z * ny * nx; at < (z + 1) * ny * nx; ++at)
+    {
+      this->Counts[at] += this->Counts[at - ny * nx];
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+GramMatrix::GramMatrix(const TSpline& spline, const FunctionTable& table, const VoxelMask& mask,
+  const Execution& execution)
+{
+  const Index n = spline.Size();
+  std::array<std::vector<float>, 3> gram;
+  for (int a = 0; a < 3; ++a)
+  {
+    gram[a] = UnivariateGram(table.AllFactors(a), execution);
+  }
+  const auto separable = [&gram, &table](Index i, Index j)
+  {
+    double product = 1.0;
+    for (int a = 0; a < 3; ++a)
+    {
+      product *= gram[a][table.Id(i, a) * table.AllFactors(a).size() + table.Id(j, a)];
+    }
+    return product;
+  };
+  const auto masked = [&separable, &table, &mask](Index i, Index j)
+  {
+    const VoxelBox box(table, i, j);
+    const Index all = box.Count();
+    const Index counted = all > 0 ? CountedVoxels(mask, box) : 0;
+    return counted == 0 ? 0.0 : counted == all ? separable(i, j) : MaskedDot(mask, table, i, j);
+  };
+
+  this->Diagonal.resize(n);
+  const SupportTree tree(spline.Functions);
+  this->RowBegin.assign(n + 1, 0);
+  execution.ParallelFor(n,
+    [&](Index begin, Index end)
+    {
+      for (Index i = begin; i < end; ++i)
+      {
+        this->Diagonal[i] = mask.Values ? masked(i, i) : separable(i, i);
+        Index count = 0;
+        tree.Query(SupportOf(spline.Functions[i]), [&count](Index) { ++count; });
+        this->RowBegin[i + 1] = count;
+      }
+    });
+  for (Index i = 0; i < n; ++i)
+  {
+    this->RowBegin[i + 1] += this->RowBegin[i];
+  }
+  this->BlockBegin.resize(n);
+  this->BlockEnd.resize(n);
+  this->Columns.resize(this->RowBegin[n]);
+  this->Values.resize(this->RowBegin[n]);
+  execution.ParallelFor(n,
+    [&](Index begin, Index end)
+    {
+      for (Index i = begin; i < end; ++i)
+      {
+        Index at = this->RowBegin[i];
+        tree.Query(SupportOf(spline.Functions[i]),
+          [&](Index j)
+          {
+            const double scale = this->Diagonal[i] * this->Diagonal[j];
+            this->Columns[at] = static_cast<std::int32_t>(j);
+            this->Values[at] =
+              scale > 0.0 ? static_cast<float>(
+                              (mask.Values ? masked(i, j) : separable(i, j)) / std::sqrt(scale))
+                          : 0.0f;
+            ++at;
+          });
+        const auto first = this->Columns.begin();
+        const auto rowBegin = first + this->RowBegin[i], rowEnd = first + this->RowBegin[i + 1];
+        const Index block = i / BlockSize * BlockSize;
+        this->BlockBegin[i] = std::lower_bound(rowBegin, rowEnd, block) - first;
+        this->BlockEnd[i] = std::lower_bound(rowBegin, rowEnd, block + BlockSize) - first;
+      }
+    });
+}
+
+//------------------------------------------------------------------------------
+double GramMatrix::MultiplyRow(Index i, const std::vector<double>& x) const
+{
+  double sum = 0.0;
+  for (Index at = this->RowBegin[i]; at < this->RowBegin[i + 1]; ++at)
+  {
+    sum += this->Values[at] * x[this->Columns[at]];
+  }
+  return sum;
+}
+
+//------------------------------------------------------------------------------
+void GramMatrix::Relax(
+  const std::vector<double>& r, Index begin, Index end, std::vector<double>& z) const
+{
+  for (Index i = begin; i < end; ++i)
+  {
+    double sum = r[i];
+    for (Index at = this->BlockBegin[i]; this->Columns[at] < i; ++at)
+    {
+      sum -= this->Values[at] * z[this->Columns[at]];
+    }
+    z[i] = sum;
+  }
+  for (Index i = end - 1; i >= begin; --i)
+  {
+    double sum = 0.0;
+    for (Index at = this->BlockEnd[i] - 1; this->Columns[at] > i; --at)
+    {
+      sum += this->Values[at] * z[this->Columns[at]];
+    }
+    z[i] -= sum;
+  }
+}
+
+//------------------------------------------------------------------------------
+int GramMatrix::Solve(const std::vector<double>& b, double tolerance, int maximumIterations,
+  std::vector<double>& x, const Execution& execution) const
+{
+  // The unknowns are scaled so that the matrix has a unit diagonal.
+  const Index n = this->Size();
+  x.assign(n, 0.0);
+  std::vector<double> r(n), z(n), p(n, 0.0), ap(n);
+  for (Index i = 0; i < n; ++i)
+  {
+    r[i] = this->Diagonal[i] > 0.0 ? b[i] / std::sqrt(this->Diagonal[i]) : 0.0;
+  }
+  double alpha = 0.0, goal = 0.0, rzBefore = 0.0;
+  int iteration = 0;
+  for (;; ++iteration)
+  {
+    execution.Check(0.0);
+    const double rz = SumOverBlocks(n, execution,
+      [&](Index begin, Index end)
+      {
+        for (Index i = begin; i < end; ++i)
+        {
+          x[i] += alpha * p[i];
+          r[i] -= alpha * ap[i];
+        }
+        this->Relax(r, begin, end, z);
+        return std::inner_product(&r[begin], &r[0] + end, &z[begin], 0.0);
+      });
+    if (iteration == 0)
+    {
+      goal = rz * tolerance * tolerance;
+    }
+    if (iteration == maximumIterations || !(rz > goal))
+    {
+      break;
+    }
+    const double beta = iteration == 0 ? 0.0 : rz / rzBefore;
+    rzBefore = rz;
+    for (Index i = 0; i < n; ++i)
+    {
+      p[i] = z[i] + beta * p[i];
+    }
+    const double pap = SumOverBlocks(n, execution,
+      [&](Index begin, Index end)
+      {
+        double sum = 0.0;
+        for (Index i = begin; i < end; ++i)
+        {
+          ap[i] = this->MultiplyRow(i, p);
+          sum += p[i] * ap[i];
+        }
+        return sum;
+      });
+    if (!(pap > 0.0))
+    {
+      break; // rounding has used up what the system can tell
+    }
+    alpha = rz / pap;
+  }
+  for (Index i = 0; i < n; ++i)
+  {
+    x[i] = this->Diagonal[i] > 0.0 ? x[i] / std::sqrt(this->Diagonal[i]) : 0.0;
+  }
+  return iteration;
+}
+}

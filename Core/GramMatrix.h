@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The normal equations of a gridded least-squares fit.
+ *
+ * The sum over a grid of voxels of the product of two blending functions is a product of three
+ * univariate sums, so the matrix costs nothing a voxel: A_ij = Gu(i, j) Gv(i, j) Gw(i, j).
+ */
+#ifndef trivariate_GramMatrix_h
+#define trivariate_GramMatrix_h
+
+#include "FunctionTable.h"
+
+namespace trivariate
+{
+/// Which voxels count.
+struct VoxelMask
+{
+  std::array<Index, 3> Size;
+  const std::uint8_t* Values = nullptr; ///< null: all
+
+  /// Voxels that count in all boxes from the origin: (x, y, z) exclusive; (Size + 1)^3 numbers.
+  std::vector<std::int32_t> Counts;
+  void Prepare(const Execution& execution);
+};
+
+/**
+ * Sparse symmetric matrix of the sums over voxels of B_i B_j. Numbers are kept in single precision:
+ * the matrix only turns residuals into corrections, and the residuals are computed without it.
+ */
+class GramMatrix
+{
+public:
+  GramMatrix(const TSpline& spline, const FunctionTable& table, const VoxelMask& mask,
+    const Execution& execution);
+
+  Index Size() const { return static_cast<Index>(this->Diagonal.size()); }
+
+  /**
+   * Conjugate gradients for A x = b from x = 0, preconditioned by a symmetric Gauss-Seidel sweep
+   * within blocks of neighbouring functions, until the residual has fallen by `tolerance` (in the
+   * preconditioner's norm) or `maximumIterations` are done. Functions without a voxel keep x = 0.
+   * Returns the number of iterations.
+   */
+  int Solve(const std::vector<double>& b, double tolerance, int maximumIterations,
+    std::vector<double>& x, const Execution& execution) const;
+
+private:
+  double MultiplyRow(Index i, const std::vector<double>& x) const;
+
+  /// z = the symmetric Gauss-Seidel sweep from zero for A z = r within [begin, end).
+  void Relax(const std::vector<double>& r, Index begin, Index end, std::vector<double>& z) const;
+
+  std::vector<Index> RowBegin;
+  std::vector<Index> BlockBegin, BlockEnd; // the part of a row within its own block
+  std::vector<std::int32_t> Columns;
+  std::vector<float> Values; // scaled: A_ij / sqrt(A_ii A_jj)
+  std::vector<double> Diagonal;
+};
+}
+
+#endif

@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RefinementMarks.h"
+
+#include "BlendingFunctionMap.h"
+
+#include <algorithm>
+
+namespace trivariate
+{
+namespace
+{
+// Growth of the spline in one round. Small steps choose better, large ones are faster; a small
+// spline can afford small steps.
+constexpr double Growth = 0.25;
+constexpr Index SmallestStep = 64;
+
+// The best gains first, at most `count` of them; equal gains in the order of the functions.
+void KeepLargest(std::vector<SplitGain>& gains, Index count)
+{
+  const auto better = [](const SplitGain& a, const SplitGain& b)
+  {
+    return std::tie(b.SquaredError, a.Function, a.Direction, a.Knot) <
+           std::tie(a.SquaredError, b.Function, b.Direction, b.Knot);
+  };
+  if (count < static_cast<Index>(gains.size()))
+  {
+    std::nth_element(gains.begin(), gains.begin() + count, gains.end(), better);
+    gains.resize(count);
+  }
+  std::sort(gains.begin(), gains.end(), better);
+}
+
+// One mark for each knot face: functions in line share their cross-section and so the face.
+std::vector<RefinementMark> DistinctMarks(
+  const std::vector<SplitGain>& gains, const TSpline& spline, Index count)
+{
+  std::vector<RefinementMark> marks;
+  BlendingFunctionMap faces;
+  for (const SplitGain& gain : gains)
+  {
+    BlendingFunction face = spline.Functions[gain.Function];
+    face[gain.Direction] = { -1, gain.Knot, gain.Knot, gain.Knot, gain.Knot };
+    if (gain.SquaredError > 0.0 && faces.Insert(face, 0).second)
+    {
+      marks.push_back({ gain.Function, gain.Direction, gain.Knot });
+      if (static_cast<Index>(marks.size()) == count)
+      {
+        break;
+      }
+    }
+  }
+  return marks;
+}
+}
+
+//------------------------------------------------------------------------------
+bool RefinementMarks::Refine(std::vector<SplitGain> gains, Index maximum, TSpline& spline,
+  std::unique_ptr<RefinementRule>& rule)
+{
+  const Index size = spline.Size();
+  const Index step = std::max(SmallestStep, static_cast<Index>(Growth * size));
+  const Index limit = std::min(maximum, size + step + step / 4);
+  const Index wanted = std::min(maximum, size + step) - size;
+  if (wanted <= 0)
+  {
+    return false;
+  }
+  // Up to four functions in line ask for the same face.
+  KeepLargest(gains, 4 * wanted);
+  const std::vector<RefinementMark> all = DistinctMarks(gains, spline, wanted);
+  auto count = static_cast<Index>(
+    std::min<double>(all.size(), std::max(1.0, wanted / this->FunctionsPerMark)));
+  while (count > 0)
+  {
+    const std::vector<RefinementMark> marks(all.begin(), all.begin() + count);
+    TSpline trial = spline;
+    std::unique_ptr<RefinementRule> trialRule = rule->Clone();
+    trialRule->Refine(trial, marks);
+    const Index grown = trial.Size() - size;
+    if (grown > 0)
+    {
+      this->FunctionsPerMark = static_cast<double>(grown) / count;
+    }
+    // A single mark may grow more than a step (never more than the maximum allows).
+    if (trial.Size() <= (count == 1 ? maximum : limit))
+    {
+      spline = std::move(trial);
+      rule = std::move(trialRule);
+      return grown > 0;
+    }
+    count =
+      std::min(count - 1, std::max<Index>(1, static_cast<Index>(0.95 * count * wanted / grown)));
+  }
+  return false;
+}
+}
