@@ -14,33 +14,34 @@ namespace
 {
 using Cubic = std::array<double, 4>; // Bernstein coefficients
 
-// A polynomial piece of a univariate function: c[0] + c[1] s + c[2] s^2 + c[3] s^3 at the parameter
-// Origin + s / Scale.
-struct Piece
+// The Bernstein coefficients on the part [s, r] of the unit interval: de Casteljau's cut at r, then
+// the cut of what is left of it at s / r. Convex combinations only: what is not negative stays so,
+// and what vanishes at an end vanishes exactly.
+Cubic Restrict(Cubic c, double s, double r)
 {
-  Cubic C;
-  double Origin, Scale;
-
-  double Value(double s) const
+  if (r < 1.0)
   {
-    return this->C[0] + s * (this->C[1] + s * (this->C[2] + s * this->C[3]));
+    for (int degree = 1; degree < 4; ++degree)
+    {
+      for (int i = 3; i >= degree; --i)
+      {
+        c[i] = (1.0 - r) * c[i - 1] + r * c[i];
+      }
+    }
   }
-  double Derivative(double s) const
+  if (s > 0.0)
   {
-    return this->C[1] + s * (2.0 * this->C[2] + s * 3.0 * this->C[3]);
+    const double cut = s / r;
+    for (int degree = 1; degree < 4; ++degree)
+    {
+      for (int i = 0; i + degree < 4; ++i)
+      {
+        c[i] = (1.0 - cut) * c[i] + cut * c[i + 1];
+      }
+    }
   }
-
-  // Bernstein coefficients on [a, b] inside the piece, from the values and slopes at its ends.
-  Cubic Bernstein(double a, double b) const
-  {
-    const double s = (a - this->Origin) * this->Scale;
-    const double r = (b - this->Origin) * this->Scale;
-    const double third = (r - s) / 3.0;
-    const double first = this->Value(s);
-    const double last = this->Value(r);
-    return { first, first + third * this->Derivative(s), last - third * this->Derivative(r), last };
-  }
-};
+  return c;
+}
 
 // The four polynomial pieces of every univariate function of one direction, each computed once.
 class UnivariatePieces
@@ -57,27 +58,24 @@ public:
         k.begin(), k.end(), t.begin(), [this](std::int32_t i) { return this->Line[i]; });
       for (int i = 0; i < 4; ++i)
       {
-        if (t[i] < t[i + 1])
-        {
-          const Cubic b = BernsteinOfBSpline(t, t[i], t[i + 1]);
-          this->Pieces.push_back({ { b[0], 3.0 * (b[1] - b[0]), 3.0 * (b[2] - 2.0 * b[1] + b[0]),
-                                     b[3] - b[0] + 3.0 * (b[1] - b[2]) },
-            t[i], 1.0 / (t[i + 1] - t[i]) });
-        }
-        else
-        {
-          this->Pieces.push_back({});
-        }
+        this->Pieces.push_back(t[i] < t[i + 1] ? BernsteinOfBSpline(t, t[i], t[i + 1]) : Cubic{});
       }
     }
   }
 
   // The function's Bernstein coefficients between two knots that have no knot of it between them.
-  Cubic Bernstein(std::int32_t function, std::int32_t low, std::int32_t high) const
+  Cubic Between(std::int32_t function, std::int32_t low, std::int32_t high) const
   {
     const LocalKnots& k = this->Functions[function];
     const int piece = (k[1] <= low) + (k[2] <= low) + (k[3] <= low);
-    return this->Pieces[4 * function + piece].Bernstein(this->Line[low], this->Line[high]);
+    const Cubic& c = this->Pieces[4 * function + piece];
+    if (k[piece] == low && k[piece + 1] == high)
+    {
+      return c;
+    }
+    const double origin = this->Line[k[piece]];
+    const double length = this->Line[k[piece + 1]] - origin;
+    return Restrict(c, (this->Line[low] - origin) / length, (this->Line[high] - origin) / length);
   }
 
   std::size_t Size() const { return this->Functions.size(); }
@@ -85,7 +83,7 @@ public:
 private:
   const KnotLine& Line;
   const std::vector<LocalKnots>& Functions;
-  std::vector<Piece> Pieces;
+  std::vector<Cubic> Pieces;
 };
 
 // The univariate functions of one direction on the interval of the cell at hand. Each is restricted
@@ -115,7 +113,7 @@ public:
     if (this->Stamps[function] != this->Stamp)
     {
       this->Stamps[function] = this->Stamp;
-      this->Coefficients[function] = this->Pieces.Bernstein(function, this->Low, this->High);
+      this->Coefficients[function] = this->Pieces.Between(function, this->Low, this->High);
     }
     return this->Coefficients[function].data();
   }

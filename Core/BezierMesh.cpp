@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -52,6 +53,19 @@ constexpr int EntryShift(int depth)
 {
   return 2 * (depth - 1);
 }
+}
+
+//------------------------------------------------------------------------------
+Index BezierMesh::MaximumCells(Index functions)
+{
+  return std::clamp<Index>(
+    64 * functions, Index(1) << 20, std::numeric_limits<std::int32_t>::max());
+}
+
+//------------------------------------------------------------------------------
+Index BezierMesh::MaximumPairs(Index functions)
+{
+  return std::max<Index>(4096 * functions, Index(1) << 24);
 }
 
 //------------------------------------------------------------------------------
@@ -317,7 +331,7 @@ void BezierMesh::BuildActive(const TSpline& spline, const Execution& execution)
     std::vector<std::int32_t> Cells;
   };
   std::vector<Chunk> chunks((order.size() + ChunkSize - 1) / ChunkSize);
-  const Index limit = MaximumCellsInSupport * spline.Size();
+  const Index limit = MaximumPairs(spline.Size());
   std::atomic<Index> pairs{ 0 };
   const auto find = [&](Index c)
   {
@@ -347,9 +361,9 @@ void BezierMesh::BuildActive(const TSpline& spline, const Execution& execution)
       });
     if (pairs > limit)
     {
-      throw std::length_error("The support of the mean blending function holds more than " +
-                              std::to_string(MaximumCellsInSupport) +
-                              " Bezier cells; the T-spline's knots do not come from a T-mesh.");
+      throw std::length_error("The supports of the T-spline's blending functions hold more than " +
+                              std::to_string(limit) +
+                              " Bezier cells in all; its knots do not come from a T-mesh.");
     }
   }
 

@@ -44,8 +44,12 @@ class BezierMesh
 public:
   /// Limits that keep a hostile spline from exhausting time or memory, generous for sane ones.
   static constexpr Index MaximumGrid = Index(1) << 31; ///< unit boxes of the index grid
-  static constexpr Index MaximumCellsPerFunction = 64; ///< on average; 1 to 4 are usual
-  static constexpr Index MaximumCellsInSupport = 4096; ///< of a function, on average; 64 to 300
+  /// Cells, for that many functions: 64 for each of them or a million, whichever is more (1 to 4
+  /// for each are usual).
+  static Index MaximumCells(Index functions);
+  /// Pairs of a cell and an active function: 4096 for each function or 2^24, whichever is more (64
+  /// to 300 for each are usual).
+  static Index MaximumPairs(Index functions);
 
   /**
    * `spline` must be valid (see Validate). Throws std::length_error with a sentence for the user

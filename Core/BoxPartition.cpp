@@ -3,7 +3,6 @@
 #include "BoxPartition.h"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -111,8 +110,7 @@ public:
     , Row(this->Up == 2 ? 1 : 2)
     , Columns(used[this->Column].Intervals())
     , Rows(used[this->Row].Intervals())
-    , MaximumBoxes(std::min<Index>(BezierMesh::MaximumCellsPerFunction * spline.Size(),
-        std::numeric_limits<std::int32_t>::max()))
+    , MaximumBoxes(BezierMesh::MaximumCells(spline.Size()))
     , ColumnFaces(this->Columns, this->Rows)
     , RowFaces(this->Columns, this->Rows)
     , FacesBelow(this->Columns, this->Rows)

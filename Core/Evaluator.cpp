@@ -32,8 +32,8 @@ void Prefetch(const double* data, Index count)
 // A point and the cell that holds it: its coefficients, and the place in it.
 struct LocatedPoint
 {
-  const double* Coefficients = nullptr; // null outside
-  double S[3];                          // in [0, 1]
+  const double* Coefficients; // null outside
+  double S[3];                // in [0, 1]
   double InverseWidth[3];
 };
 
@@ -149,7 +149,7 @@ Evaluator::Evaluator(const TSpline& spline, const BezierMesh& mesh,
   : Cells(&mesh)
   , ComponentCount(static_cast<int>(components.size()))
 {
-  if (components.empty())
+  if (components.empty() || std::count(components.begin(), components.end(), Denominator) > 0)
   {
     throw std::invalid_argument("No component of the T-spline was chosen for evaluation.");
   }

@@ -1,0 +1,412 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BezierExtraction.h"
+#include "BezierMesh.h"
+#include "RandomRefinement.h"
+#include "ThreadedExecution.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+using namespace trivariate;
+
+namespace
+{
+TSpline RandomCompact(std::mt19937& random, int rounds)
+{
+  TSpline spline = RandomTensorProduct({ 2, 3, 2 }, { 3, 2, 3 }, random);
+  const auto rule = MakeKnotInsertionRule(spline);
+  for (int round = 0; round < rounds; ++round)
+  {
+    rule->Refine(spline, RandomMarks(spline, 6, random));
+  }
+  return spline;
+}
+
+// Functions with random knots: no T-mesh.
+TSpline RandomFunctions(std::mt19937& random, int count)
+{
+  TSpline spline;
+  spline.Components = 3;
+  for (KnotLine& line : spline.KnotLines)
+  {
+    line = MakeUniformKnotLine(0.0, 1.0, 9);
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    BlendingFunction f;
+    for (LocalKnots& k : f)
+    {
+      do
+      {
+        std::generate(
+          k.begin(), k.end(), [&]() { return static_cast<std::int32_t>(random() % 10); });
+        std::sort(k.begin(), k.end());
+      } while (k[0] == k[4]);
+    }
+    spline.Functions.push_back(f);
+  }
+  spline.Weights.assign(count, 1.0);
+  spline.ControlPoints.assign(3 * count, 0.0);
+  return spline;
+}
+
+// The unit boxes of the knot grid, taken apart by faces, the slow way.
+class UnitGrid
+{
+public:
+  explicit UnitGrid(const TSpline& spline)
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      this->Size[a] = static_cast<std::int32_t>(spline.KnotLines[a].size()) - 1;
+    }
+    const Index n = static_cast<Index>(this->Size[0]) * this->Size[1] * this->Size[2];
+    this->Covered.assign(n, false);
+    for (auto& faces : this->Faces)
+    {
+      faces.assign(n, false);
+    }
+    for (const BlendingFunction& f : spline.Functions)
+    {
+      const IndexBox box = SupportOf(f);
+      this->ForEach(box, [&](Index unit) { this->Covered[unit] = true; });
+      for (int a = 0; a < 3; ++a)
+      {
+        for (const std::int32_t knot : f[a])
+        {
+          IndexBox slab = box;
+          slab.Low[a] = knot;
+          slab.High[a] = std::min(knot + 1, this->Size[a]);
+          this->ForEach(slab, [&](Index unit) { this->Faces[a][unit] = true; });
+        }
+      }
+    }
+  }
+
+  template <typename Visitor>
+  void ForEach(const IndexBox& box, const Visitor& visit) const
+  {
+    for (std::int32_t k = box.Low[2]; k < box.High[2]; ++k)
+    {
+      for (std::int32_t j = box.Low[1]; j < box.High[1]; ++j)
+      {
+        for (std::int32_t i = box.Low[0]; i < box.High[0]; ++i)
+        {
+          visit(this->Place({ i, j, k }));
+        }
+      }
+    }
+  }
+
+  // Regions that are connected without crossing a face.
+  Index CountRegions() const
+  {
+    std::vector<bool> seen(this->Covered.size(), false);
+    Index regions = 0;
+    IndexBox all{ { 0, 0, 0 }, this->Size };
+    this->ForEach(all,
+      [&](Index unit)
+      {
+        if (this->Covered[unit] && !seen[unit])
+        {
+          ++regions;
+          this->Flood(unit, seen);
+        }
+      });
+    return regions;
+  }
+
+  Index Place(const std::array<std::int32_t, 3>& at) const
+  {
+    return at[0] + static_cast<Index>(this->Size[0]) * (at[1] + this->Size[1] * at[2]);
+  }
+
+  std::array<std::int32_t, 3> Size;
+  std::vector<bool> Covered;
+  std::array<std::vector<bool>, 3> Faces; // at the low side of each unit
+
+private:
+  void Flood(Index start, std::vector<bool>& seen) const
+  {
+    const Index steps[3] = { 1, this->Size[0], static_cast<Index>(this->Size[0]) * this->Size[1] };
+    std::vector<Index> open = { start };
+    seen[start] = true;
+    while (!open.empty())
+    {
+      const Index unit = open.back();
+      open.pop_back();
+      for (int a = 0; a < 3; ++a)
+      {
+        const Index at = unit / steps[a] % this->Size[a];
+        const bool below = at > 0 && !this->Faces[a][unit];
+        const bool above = at + 1 < this->Size[a] && !this->Faces[a][unit + steps[a]];
+        for (const auto& [passes, next] :
+          { std::pair(below, unit - steps[a]), std::pair(above, unit + steps[a]) })
+        {
+          if (passes && !seen[next])
+          {
+            seen[next] = true;
+            open.push_back(next);
+          }
+        }
+      }
+    }
+  }
+};
+
+// Cells are disjoint, cover the supports, cross no face, know their functions and are found.
+void ExpectPartition(const TSpline& spline, const BezierMesh& mesh, std::mt19937& random)
+{
+  const UnitGrid grid(spline);
+  std::vector<Index> owner(grid.Covered.size(), -1);
+  for (Index cell = 0; cell < mesh.Size(); ++cell)
+  {
+    const IndexBox& box = mesh.Box(cell);
+    grid.ForEach(box,
+      [&](Index unit)
+      {
+        ASSERT_TRUE(grid.Covered[unit]);
+        ASSERT_EQ(owner[unit], -1);
+        owner[unit] = cell;
+      });
+    for (int a = 0; a < 3; ++a)
+    {
+      IndexBox inside = box;
+      ++inside.Low[a];
+      grid.ForEach(inside, [&](Index unit) { ASSERT_FALSE(grid.Faces[a][unit]); });
+    }
+    std::set<std::int32_t> expected;
+    for (Index i = 0; i < spline.Size(); ++i)
+    {
+      if (SupportOf(spline.Functions[i]).Overlaps(box))
+      {
+        expected.insert(static_cast<std::int32_t>(i));
+      }
+    }
+    const IdRange active = mesh.ActiveFunctions(cell);
+    ASSERT_EQ(std::set<std::int32_t>(active.begin(), active.end()), expected);
+    ASSERT_EQ(active.size(), static_cast<Index>(expected.size()));
+  }
+  for (std::size_t unit = 0; unit < owner.size(); ++unit)
+  {
+    ASSERT_EQ(owner[unit] >= 0, grid.Covered[unit]);
+  }
+  for (int n = 0; n < 2000; ++n)
+  {
+    std::array<std::int32_t, 3> at;
+    Point x;
+    for (int a = 0; a < 3; ++a)
+    {
+      const KnotLine& line = spline.KnotLines[a];
+      at[a] = static_cast<std::int32_t>(random() % grid.Size[a]);
+      x[a] = n % 3 ? Random(random, line[at[a]], line[at[a] + 1]) : line[at[a]];
+    }
+    ASSERT_EQ(mesh.FindCell(x[0], x[1], x[2]), owner[grid.Place(at)]);
+  }
+}
+}
+
+TEST(BezierMesh, TensorProductCellsAreItsKnotIntervals)
+{
+  const std::array<KnotLine, 3> lines = { MakeUniformKnotLine(0.0, 1.0, 12),
+    MakeUniformKnotLine(-1.0, 1.0, 8), MakeUniformKnotLine(2.0, 3.0, 5) };
+  const TSpline spline = MakeTensorProduct(lines, { 3, 2, 1 }, 0);
+  const BezierMesh mesh(spline);
+  ASSERT_EQ(mesh.Size(), 4 * 4 * 5);
+  for (Index cell = 0; cell < mesh.Size(); ++cell)
+  {
+    const auto i = static_cast<std::int32_t>(cell % 4), j = static_cast<std::int32_t>(cell / 4 % 4),
+               k = static_cast<std::int32_t>(cell / 16);
+    EXPECT_EQ(mesh.Box(cell).Low, (std::array<std::int32_t, 3>{ 3 * i, 2 * j, k }));
+    EXPECT_EQ(mesh.Box(cell).High, (std::array<std::int32_t, 3>{ 3 * i + 3, 2 * j + 2, k + 1 }));
+    EXPECT_EQ(mesh.ActiveFunctions(cell).size(), 64);
+    EXPECT_EQ(mesh.Level(cell), 0);
+  }
+}
+
+TEST(BezierMesh, CellsAreTheRegionsBetweenTheFaces)
+{
+  for (unsigned seed = 0; seed < 20; ++seed)
+  {
+    std::mt19937 random(seed);
+    const TSpline spline = RandomCompact(random, 3 + seed % 4);
+    const BezierMesh mesh(spline);
+    ExpectPartition(spline, mesh, random);
+    EXPECT_EQ(mesh.Size(), UnitGrid(spline).CountRegions()) << "seed " << seed;
+  }
+}
+
+TEST(BezierMesh, AnyFunctionsHaveValidCells)
+{
+  for (unsigned seed = 0; seed < 40; ++seed)
+  {
+    std::mt19937 random(seed);
+    const TSpline spline = RandomFunctions(random, 1 + seed / 2);
+    ExpectPartition(spline, BezierMesh(spline), random);
+  }
+}
+
+TEST(BezierMesh, LevelCountsHalvings)
+{
+  const KnotLine line = MakeUniformKnotLine(0.0, 1.0, 16);
+  TSpline spline = MakeTensorProduct({ line, line, line }, { 4, 4, 4 }, 0);
+  const auto rule = MakeKnotInsertionRule(spline);
+  rule->Refine(spline, { { 60, 0, 2 }, { 60, 2, 2 } });
+  const BezierMesh mesh(spline);
+  int highest = 0;
+  for (Index cell = 0; cell < mesh.Size(); ++cell)
+  {
+    const IndexBox& box = mesh.Box(cell);
+    const int volume =
+      (box.High[0] - box.Low[0]) * (box.High[1] - box.Low[1]) * (box.High[2] - box.Low[2]);
+    EXPECT_EQ(volume << mesh.Level(cell), 64);
+    highest = std::max(highest, mesh.Level(cell));
+  }
+  EXPECT_GE(highest, 1);
+}
+
+TEST(BezierMesh, FindsSpansOfUnevenLines)
+{
+  std::mt19937 random(5);
+  KnotLine line = { -3.0 };
+  while (line.size() < 200)
+  {
+    line.push_back(line.back() + std::exp(Random(random, -25.0, 0.0)));
+  }
+  const TSpline spline = MakeTensorProduct({ line, { 0.0, 1.0 }, { 0.0, 1.0 } }, { 1, 1, 1 }, 0);
+  const BezierMesh mesh(spline);
+  const auto last = static_cast<std::int32_t>(line.size()) - 2;
+  for (std::int32_t k = 0; k <= last; ++k)
+  {
+    EXPECT_EQ(mesh.FindSpan(0, line[k]), k);
+    EXPECT_EQ(mesh.FindSpan(0, std::nextafter(line[k + 1], line[k])), k);
+  }
+  EXPECT_EQ(mesh.FindSpan(0, line.back()), last);
+  EXPECT_EQ(mesh.FindSpan(0, std::nextafter(line.front(), -4.0)), -1);
+  EXPECT_EQ(mesh.FindSpan(0, std::nextafter(line.back(), 1e9)), -1);
+  EXPECT_EQ(mesh.FindSpan(0, std::numeric_limits<double>::quiet_NaN()), -1);
+  EXPECT_EQ(mesh.FindCell(line[0], 2.0, 0.5), -1);
+}
+
+TEST(BezierMesh, RefusesHostileKnots)
+{
+  // Each function has knots of its own: 1500 in each direction.
+  TSpline spline;
+  spline.Components = 3;
+  spline.KnotLines.fill(MakeUniformKnotLine(0.0, 1.0, 1500));
+  for (std::int32_t i = 0; i < 300; ++i)
+  {
+    const LocalKnots k = { 5 * i, 5 * i + 1, 5 * i + 2, 5 * i + 3, 5 * i + 4 };
+    spline.Functions.push_back({ k, k, k });
+  }
+  EXPECT_THROW(BezierMesh{ spline }, std::length_error);
+
+  // All supports are the whole domain, and their planes cut each other into too many cells.
+  spline.KnotLines.fill(MakeUniformKnotLine(0.0, 1.0, 600));
+  for (std::int32_t i = 0; i < 300; ++i)
+  {
+    const LocalKnots k = { 0, 1 + i % 199, 200 + i % 199, 400 + i % 199, 600 };
+    spline.Functions[i] = { k, k, k };
+  }
+  EXPECT_THROW(BezierMesh{ spline }, std::length_error);
+}
+
+TEST(BezierMesh, NoFunctionsNoCells)
+{
+  TSpline spline;
+  spline.Components = 3;
+  spline.KnotLines.fill({ 0.0, 1.0 });
+  const BezierMesh mesh(spline);
+  EXPECT_EQ(mesh.Size(), 0);
+  EXPECT_EQ(mesh.FindCell(0.5, 0.5, 0.5), -1);
+}
+
+TEST(BezierMesh, StopsWhenAsked)
+{
+  std::mt19937 random(1);
+  const TSpline spline = RandomCompact(random, 3);
+  int looks = 0;
+  Execution execution;
+  execution.Continue = [&looks](double) { return ++looks < 4; };
+  EXPECT_THROW(BezierMesh(spline, execution), Aborted);
+}
+
+TEST(BezierExtraction, ReproducesTheSpline)
+{
+  for (unsigned seed = 0; seed < 12; ++seed)
+  {
+    std::mt19937 random(seed);
+    TSpline spline = RandomCompact(random, 6);
+    for (double& weight : spline.Weights)
+    {
+      weight *= seed % 2 ? Random(random, 0.2, 5.0) : 1.0;
+    }
+    const BezierMesh mesh(spline);
+    const auto bezier = ExtractBezier(spline, mesh, { 4, Denominator, 0, 3 });
+    ASSERT_EQ(bezier.size(), static_cast<std::size_t>(mesh.Size()) * 4 * 64);
+    for (int n = 0; n < 300; ++n)
+    {
+      const Point x = RandomPoint(spline, random);
+      const Index cell = mesh.FindCell(x[0], x[1], x[2]);
+      const auto bounds = mesh.Bounds(cell);
+      std::array<std::array<double, 4>, 3> b;
+      for (int a = 0; a < 3; ++a)
+      {
+        b[a] = Bernstein((x[a] - bounds[2 * a]) / (bounds[2 * a + 1] - bounds[2 * a]));
+      }
+      std::array<double, 4> sums{};
+      for (int m = 0; m < 256; ++m)
+      {
+        sums[m / 64] += bezier[cell * 256 + m] * b[0][m % 4] * b[1][m / 4 % 4] * b[2][m / 16 % 4];
+      }
+      const auto direct = HomogeneousValue(spline, x);
+      EXPECT_NEAR(sums[0], direct[4], 1e-12);
+      EXPECT_NEAR(sums[1], direct[5], 1e-12);
+      EXPECT_NEAR(sums[2], direct[0], 1e-11); // X is up to ten times as large
+      EXPECT_NEAR(sums[3], direct[3], 1e-12);
+    }
+  }
+}
+
+TEST(BezierExtraction, DenominatorOfRefinedSplinesIsOne)
+{
+  for (unsigned seed = 0; seed < 10; ++seed)
+  {
+    std::mt19937 random(seed);
+    const TSpline spline = RandomCompact(random, 8);
+    for (const double d : ExtractBezier(spline, BezierMesh(spline), { Denominator }))
+    {
+      ASSERT_NEAR(d, 1.0, 1e-12);
+    }
+  }
+}
+
+TEST(BezierExtraction, IsTheSameForAnyThreads)
+{
+  std::mt19937 random(7);
+  const TSpline spline = RandomCompact(random, 8);
+  const BezierMesh mesh(spline);
+  const BezierMesh threaded(spline, ThreadedExecution(3));
+  ASSERT_EQ(mesh.Size(), threaded.Size());
+  for (Index cell = 0; cell < mesh.Size(); ++cell)
+  {
+    const IdRange a = mesh.ActiveFunctions(cell), b = threaded.ActiveFunctions(cell);
+    ASSERT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end()));
+  }
+  EXPECT_EQ(ExtractBezier(spline, mesh, { 3, 4 }),
+    ExtractBezier(spline, threaded, { 3, 4 }, ThreadedExecution(4)));
+}
+
+TEST(BezierExtraction, RefusesUnknownComponents)
+{
+  std::mt19937 random(1);
+  const TSpline spline = RandomTensorProduct({ 1, 1, 1 }, { 0, 0, 0 }, random);
+  const BezierMesh mesh(spline);
+  EXPECT_THROW(ExtractBezier(spline, mesh, { 5 }), std::invalid_argument);
+  EXPECT_THROW(ExtractBezier(spline, mesh, { -2 }), std::invalid_argument);
+}
