@@ -39,8 +39,8 @@ std::vector<vtkDataArray*> AttributeArrays(
 {
   if (!chosen)
   {
-    throw std::invalid_argument(
-      "The image has no point array that was chosen; use SetInputArrayToProcess(0, ...).");
+    throw std::invalid_argument("The image does not have the point array that was chosen; use "
+                                "SetInputArrayToProcess(0, ...).");
   }
   std::vector<vtkDataArray*> arrays = { chosen };
   for (const std::string& name : further)
@@ -205,6 +205,16 @@ bool vtkTSplineFit::IsGathering(vtkInformationVector* outputVector)
 }
 
 //------------------------------------------------------------------------------
+// The array of SetInputArrayToProcess(0, ...); the active scalars as long as nothing was chosen,
+// which a proxy says with an empty name.
+vtkDataArray* vtkTSplineFit::ChosenArray(vtkImageData* image)
+{
+  const char* name = this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME());
+  return name && !*name ? image->GetPointData()->GetScalars()
+                        : this->GetInputArrayToProcess(0, image);
+}
+
+//------------------------------------------------------------------------------
 int vtkTSplineFit::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -227,15 +237,22 @@ int vtkTSplineFit::RequestData(
   vtkImageData* input = vtkImageData::GetData(inputVector[0]);
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector, 0);
   vtkTable* rounds = vtkTable::GetData(outputVector, 1);
+  const bool gathering = this->IsGathering(outputVector);
+  const int piece = outputVector->GetInformationObject(0)->Get(
+    vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
+  if (!gathering && piece > 0)
+  {
+    return 1; // the first piece is all
+  }
   ImageSamples samples;
   std::string fault;
   try
   {
     if (input->GetNumberOfPoints() > 0)
     {
-      samples = ReadSamples(input,
-        AttributeArrays(input, this->GetInputArrayToProcess(0, inputVector), this->Attributes),
-        MaskOf(input, this->MaskArray));
+      samples =
+        ReadSamples(input, AttributeArrays(input, this->ChosenArray(input), this->Attributes),
+          MaskOf(input, this->MaskArray));
     }
   }
   catch (const std::exception& error)
@@ -244,7 +261,7 @@ int vtkTSplineFit::RequestData(
   }
   try
   {
-    if (this->IsGathering(outputVector))
+    if (gathering)
     {
       const bool sound = GatherSamples(samples, fault, this->Controller);
       const int process = this->Controller->GetLocalProcessId();

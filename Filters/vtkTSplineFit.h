@@ -23,8 +23,8 @@
  * Documentation/Arrays.md. vtkTSplineSource evaluates it, vtkTSplineWriter stores it.
  * Port 1: a vtkTable with one row a round of solving and refining and the columns ControlPoints
  * (vtkIdType), RMS (100 x root mean square error / range of the attribute), MaximumError (share of
- * the range) and Seconds (since the start). Of several attributes the worst counts. The last row
- * belongs to the output.
+ * the range; NaN after a round that did not need it) and Seconds (since the start). Of several
+ * attributes the worst counts. The last row belongs to the output.
  *
  * @par Cost
  * 8 bytes a voxel and component for a copy of the samples, as much again for the residual, and
@@ -53,6 +53,8 @@
 #include <string> // for MaskArray
 #include <vector> // for Attributes
 
+class vtkDataArray;
+class vtkImageData;
 class vtkMultiProcessController;
 
 class VTKTRIVARIATEFILTERS_EXPORT vtkTSplineFit : public vtkUnstructuredGridAlgorithm
@@ -154,6 +156,7 @@ private:
   void operator=(const vtkTSplineFit&) = delete;
 
   bool IsGathering(vtkInformationVector* outputVector);
+  vtkDataArray* ChosenArray(vtkImageData* image);
 
   int RefinementRule = COMPACT;
   int MaximumNumberOfControlPoints = 50000;
