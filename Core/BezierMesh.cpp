@@ -15,17 +15,6 @@ namespace trivariate
 {
 namespace
 {
-// The share of the building time that the sweep takes, for progress.
-constexpr double SweepShare = 0.4;
-
-Execution Part(const Execution& whole, double from, double to)
-{
-  Execution part = whole;
-  part.Continue = [&whole, from, to](double done)
-  { return whole.Continue(from + (to - from) * done); };
-  return part;
-}
-
 // The bits of entries first to last, each `width` bits wide.
 constexpr std::uint64_t Bits(Index first, Index last, int width)
 {
@@ -71,13 +60,13 @@ Index BezierMesh::MaximumPairs(Index functions)
 //------------------------------------------------------------------------------
 BezierMesh::BezierMesh(const TSpline& spline, const Execution& execution)
   : Lines(spline.KnotLines)
-  , Boxes(PartitionIntoBoxes(spline, Part(execution, 0.0, SweepShare)))
+  , Boxes(PartitionIntoBoxes(spline, execution.Part(0.0, 0.4)))
 {
   this->BuildUnivariate(spline);
   this->BuildSpanTables();
   this->BuildLevels();
-  this->BuildTree(Part(execution, SweepShare, 0.5));
-  this->BuildActive(spline, Part(execution, 0.5, 1.0));
+  this->BuildTree(execution.Part(0.4, 0.5));
+  this->BuildActive(spline, execution.Part(0.5, 1.0));
 }
 
 //------------------------------------------------------------------------------

@@ -153,14 +153,15 @@ Evaluator::Evaluator(const TSpline& spline, const BezierMesh& mesh,
   {
     throw std::invalid_argument("No component of the T-spline was chosen for evaluation.");
   }
-  this->HasDenominator = !IsOne(ExtractBezier(spline, mesh, { Denominator }, execution));
+  this->HasDenominator =
+    !IsOne(ExtractBezier(spline, mesh, { Denominator }, execution.Part(0.0, 0.4)));
   std::vector<int> columns = components;
   if (this->HasDenominator)
   {
     columns.push_back(Denominator);
   }
   this->CellStride = 64 * static_cast<Index>(columns.size());
-  this->Bezier = ExtractBezier(spline, mesh, columns, execution);
+  this->Bezier = ExtractBezier(spline, mesh, columns, execution.Part(0.4, 1.0));
 }
 
 //------------------------------------------------------------------------------

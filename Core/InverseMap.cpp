@@ -22,6 +22,18 @@ double Length(const Vector& x)
   return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
 }
 
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+
+// Widens the box [low, high] to enclose another one.
+void Enclose(const Vector& otherLow, const Vector& otherHigh, Vector& low, Vector& high)
+{
+  for (int a = 0; a < 3; ++a)
+  {
+    low[a] = std::min(low[a], otherLow[a]);
+    high[a] = std::max(high[a], otherHigh[a]);
+  }
+}
+
 // Solves m x = b for a 3 x 3 matrix given row by row; false when it is singular to rounding.
 bool Solve(const std::array<double, 9>& m, const Vector& b, Vector& x)
 {
@@ -50,36 +62,52 @@ bool Solve(const std::array<double, 9>& m, const Vector& b, Vector& x)
 //------------------------------------------------------------------------------
 InverseMap::InverseMap(const TSpline& spline, const BezierMesh& mesh, const Execution& execution)
   : Cells(&mesh)
-  , Geometry(spline, mesh, { 0, 1, 2 }, execution)
 {
   if (mesh.Size() == 0)
   {
     throw std::invalid_argument("A T-spline without blending functions has no inverse map.");
   }
-  std::vector<Node> leaves(mesh.Size());
-  for (Index cell = 0; cell < mesh.Size(); ++cell)
+  this->Geometry.emplace(spline, mesh, std::vector<int>{ 0, 1, 2 }, execution);
+  std::vector<Node> leaves = this->MakeLeaves();
+  Node box = leaves[0];
+  for (const Node& leaf : leaves)
+  {
+    Enclose(leaf.Low, leaf.High, box.Low, box.High);
+  }
+  this->Size =
+    Length({ box.High[0] - box.Low[0], box.High[1] - box.Low[1], box.High[2] - box.Low[2] });
+  this->IsAffine = !this->Geometry->Rational() && this->DetectAffine();
+  if (this->IsAffine)
+  {
+    this->Geometry.reset();
+    return;
+  }
+  this->Tree.reserve(2 * leaves.size());
+  this->BuildTree(leaves, 0, leaves.size());
+}
+
+//------------------------------------------------------------------------------
+std::vector<InverseMap::Node> InverseMap::MakeLeaves() const
+{
+  std::vector<Node> leaves(this->Cells->Size());
+  for (Index cell = 0; cell < this->Cells->Size(); ++cell)
   {
     Node& leaf = leaves[cell];
-    leaf.Low.fill(std::numeric_limits<double>::infinity());
-    leaf.High.fill(-std::numeric_limits<double>::infinity());
+    leaf.Low.fill(Infinity);
+    leaf.High.fill(-Infinity);
     leaf.Children = { -1 - static_cast<std::int32_t>(cell), -1 };
-    const double* c = this->Geometry.Coefficients(cell);
+    const double* c = this->Geometry->Coefficients(cell);
     for (int n = 0; n < 64; ++n)
     {
-      const double weight = this->Geometry.Rational() ? c[3 * 64 + n] : 1.0;
-      for (int a = 0; a < 3 && weight > 0.0; ++a)
+      const double weight = this->Geometry->Rational() ? c[3 * 64 + n] : 1.0;
+      if (weight > 0.0)
       {
-        const double x = c[64 * a + n] / weight;
-        leaf.Low[a] = std::min(leaf.Low[a], x);
-        leaf.High[a] = std::max(leaf.High[a], x);
+        const Vector x = { c[n] / weight, c[64 + n] / weight, c[128 + n] / weight };
+        Enclose(x, x, leaf.Low, leaf.High);
       }
     }
   }
-  this->Tree.reserve(2 * leaves.size());
-  const Node& root = this->Tree[this->BuildTree(leaves, 0, leaves.size())];
-  this->Size =
-    Length({ root.High[0] - root.Low[0], root.High[1] - root.Low[1], root.High[2] - root.Low[2] });
-  this->DetectAffine();
+  return leaves;
 }
 
 //------------------------------------------------------------------------------
@@ -93,18 +121,16 @@ std::int32_t InverseMap::BuildTree(std::vector<Node>& leaves, std::size_t first,
     return place;
   }
   Node node = leaves[first];
-  Vector low, high;
-  low.fill(std::numeric_limits<double>::infinity());
-  high.fill(-std::numeric_limits<double>::infinity());
+  Vector low, high; // of the middles, doubled
+  low.fill(Infinity);
+  high.fill(-Infinity);
   for (std::size_t i = first; i < last; ++i)
   {
-    for (int a = 0; a < 3; ++a)
-    {
-      node.Low[a] = std::min(node.Low[a], leaves[i].Low[a]);
-      node.High[a] = std::max(node.High[a], leaves[i].High[a]);
-      low[a] = std::min(low[a], leaves[i].Low[a] + leaves[i].High[a]);
-      high[a] = std::max(high[a], leaves[i].Low[a] + leaves[i].High[a]);
-    }
+    const Node& leaf = leaves[i];
+    Enclose(leaf.Low, leaf.High, node.Low, node.High);
+    const Vector middle = { leaf.Low[0] + leaf.High[0], leaf.Low[1] + leaf.High[1],
+      leaf.Low[2] + leaf.High[2] };
+    Enclose(middle, middle, low, high);
   }
   int axis = 0;
   for (int a = 1; a < 3; ++a)
@@ -127,12 +153,8 @@ std::int32_t InverseMap::BuildTree(std::vector<Node>& leaves, std::size_t first,
 //------------------------------------------------------------------------------
 // The affine map through the corners of the largest cell is compared with all control points: they
 // lie at thirds of their cells if and only if the geometry is affine.
-void InverseMap::DetectAffine()
+bool InverseMap::DetectAffine()
 {
-  if (this->Geometry.Rational())
-  {
-    return;
-  }
   const auto volume = [this](Index cell)
   {
     const auto b = this->Cells->Bounds(cell);
@@ -148,7 +170,7 @@ void InverseMap::DetectAffine()
   double offIdentity = 0.0;
   for (int a = 0; a < 3; ++a)
   {
-    const double* c = this->Geometry.Coefficients(largest) + 64 * a;
+    const double* c = this->Geometry->Coefficients(largest) + 64 * a;
     this->AffineOrigin[a] = c[0];
     for (int b = 0; b < 3; ++b)
     {
@@ -169,7 +191,7 @@ void InverseMap::DetectAffine()
   for (Index cell = 0; cell < this->Cells->Size(); ++cell)
   {
     const auto b = this->Cells->Bounds(cell);
-    const double* c = this->Geometry.Coefficients(cell);
+    const double* c = this->Geometry->Coefficients(cell);
     for (int n = 0; n < 64; ++n)
     {
       const Vector expected = this->AffineImage({ b[0] + (b[1] - b[0]) * (n % 4) / 3.0,
@@ -181,8 +203,8 @@ void InverseMap::DetectAffine()
     }
   }
   Vector ignored;
-  this->IsAffine =
-    off <= AffineTolerance * this->Size && Solve(this->AffineMatrix, { 0.0, 0.0, 0.0 }, ignored);
+  return off <= AffineTolerance * this->Size &&
+         Solve(this->AffineMatrix, { 0.0, 0.0, 0.0 }, ignored);
 }
 
 //------------------------------------------------------------------------------
@@ -236,7 +258,7 @@ bool InverseMap::Evaluate(const Vector& point, Place& place) const
   EvaluatorOutput output;
   output.Values = place.Residual.data();
   output.Gradients = place.Jacobian.data();
-  if (!this->Geometry.Evaluate(place.Parameters.data(), output))
+  if (!this->Geometry->Evaluate(place.Parameters.data(), output))
   {
     return false;
   }

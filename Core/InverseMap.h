@@ -19,6 +19,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace trivariate
@@ -61,7 +62,8 @@ private:
     double Distance;
   };
 
-  void DetectAffine();
+  std::vector<Node> MakeLeaves() const;
+  bool DetectAffine();
   Vector AffineImage(const Vector& parameters) const;
   std::int32_t BuildTree(std::vector<Node>& leaves, std::size_t first, std::size_t last);
   bool FindAffine(const Vector& point, Vector& parameters) const;
@@ -72,7 +74,7 @@ private:
   void ClampToDomain(Vector& parameters) const;
 
   const BezierMesh* Cells;
-  Evaluator Geometry;
+  std::optional<Evaluator> Geometry; // none if affine
   std::vector<Node> Tree;
   double Size; // diagonal of the bounding box of the geometry
   bool IsAffine = false;
