@@ -91,7 +91,16 @@ int vtkHydrogenOrbitalSource::RequestData(
 {
   vtkInformation* outInfo = outputVector->GetInformationObject(0);
   vtkImageData* output = vtkImageData::GetData(outInfo);
-  output->SetExtent(outInfo->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()));
+  // VTK keeps the request of a run that failed: it may reach beyond the image of now.
+  int extent[6], whole[6];
+  outInfo->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent);
+  outInfo->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole);
+  for (int side = 0; side < 6; ++side)
+  {
+    extent[side] =
+      side % 2 ? std::min(extent[side], whole[side]) : std::max(extent[side], whole[side]);
+  }
+  output->SetExtent(extent);
   output->SetOrigin(outInfo->Get(vtkDataObject::ORIGIN()));
   output->SetSpacing(outInfo->Get(vtkDataObject::SPACING()));
 
