@@ -57,31 +57,51 @@ BandedOperator BandedOperator::Transposed() const
 
 namespace
 {
-// out[r] = sum_c coefficients[c] * in[first + c] for whole lines of `inner` numbers.
+// y = (or +=) a0 x0 + a1 x1 + a2 x2 + a3 x3 for four consecutive lines x.
+template <bool Accumulate>
+void CombineFour(const double* a, const double* line, Index inner, Index n, double* y)
+{
+  const double a0 = a[0], a1 = a[1], a2 = a[2], a3 = a[3];
+  const double *x0 = line, *x1 = x0 + inner, *x2 = x1 + inner, *x3 = x2 + inner;
+  for (Index i = 0; i < n; ++i)
+  {
+    const double sum = (a0 * x0[i] + a1 * x1[i]) + (a2 * x2[i] + a3 * x3[i]);
+    y[i] = Accumulate ? y[i] + sum : sum;
+  }
+}
+
+// out[r] = sum_c coefficients[c] * in[first + c] for whole lines of `inner` numbers, in pieces that
+// stay in the cache.
 void CombineLines(const BandedOperator& op, Index r, Index inner, const double* in, double* out)
 {
+  constexpr Index piece = 1024;
   const double* coefficients = &op.Coefficients[r * op.Width];
-  const double* line = in + op.First[r] * inner;
-  std::fill_n(out, inner, 0.0);
-  int c = 0;
-  for (; c + 4 <= op.Width; c += 4, line += 4 * inner)
+  for (Index begin = 0; begin < inner; begin += piece)
   {
-    const double a0 = coefficients[c], a1 = coefficients[c + 1], a2 = coefficients[c + 2],
-                 a3 = coefficients[c + 3];
-    const double *x0 = line, *x1 = x0 + inner, *x2 = x1 + inner, *x3 = x2 + inner;
-    for (Index i = 0; i < inner; ++i)
+    const Index n = std::min(piece, inner - begin);
+    const double* line = in + op.First[r] * inner + begin;
+    double* y = out + begin;
+    int c = 0;
+    if (op.Width < 4)
     {
-      out[i] += (a0 * x0[i] + a1 * x1[i]) + (a2 * x2[i] + a3 * x3[i]);
+      std::fill_n(y, n, 0.0);
     }
-  }
-  for (; c < op.Width; ++c, line += inner)
-  {
-    const double a = coefficients[c];
-    if (a != 0.0)
+    else
     {
-      for (Index i = 0; i < inner; ++i)
+      CombineFour<false>(coefficients, line, inner, n, y);
+      line += 4 * inner;
+      c = 4;
+    }
+    for (; c + 4 <= op.Width; c += 4, line += 4 * inner)
+    {
+      CombineFour<true>(coefficients + c, line, inner, n, y);
+    }
+    for (; c < op.Width; ++c, line += inner)
+    {
+      const double a = coefficients[c];
+      for (Index i = 0; i < n; ++i)
       {
-        out[i] += a * line[i];
+        y[i] += a * line[i];
       }
     }
   }
@@ -124,11 +144,59 @@ void CombineRow(const BandedOperator& op, const double* in, double* out)
 }
 
 //------------------------------------------------------------------------------
+Array3 Array3::Clone() const
+{
+  Array3 copy(this->Size, this->Pool);
+  std::copy(this->Values.begin(), this->Values.end(), copy.Values.begin());
+  return copy;
+}
+
+//------------------------------------------------------------------------------
+Buffer ArrayPool::Take(Index n)
+{
+  // The smallest that is large enough, unless that would waste most of it.
+  const auto wanted = static_cast<std::size_t>(n);
+  auto best = this->Free.end();
+  for (auto free = this->Free.begin(); free != this->Free.end(); ++free)
+  {
+    if (free->capacity() >= wanted && free->capacity() / 4 <= wanted &&
+        (best == this->Free.end() || free->capacity() < best->capacity()))
+    {
+      best = free;
+    }
+  }
+  Buffer buffer;
+  if (best != this->Free.end())
+  {
+    buffer = std::move(*best);
+    this->Free.erase(best);
+  }
+  buffer.resize(wanted);
+  return buffer;
+}
+
+//------------------------------------------------------------------------------
+void ArrayPool::Give(Buffer&& buffer)
+{
+  constexpr std::size_t mostKept = 8;
+  if (buffer.capacity() == 0)
+  {
+    return;
+  }
+  this->Free.push_back(std::move(buffer));
+  if (this->Free.size() > mostKept)
+  {
+    this->Free.erase(std::min_element(this->Free.begin(), this->Free.end(),
+      [](const Buffer& x, const Buffer& y) { return x.capacity() < y.capacity(); }));
+  }
+}
+
+//------------------------------------------------------------------------------
 Array3 Apply(const BandedOperator& op, int a, const Array3& in, const Execution& execution)
 {
   std::array<Index, 3> size = in.Size;
   size[a] = op.Rows;
-  Array3 out(size);
+  Array3 out(size, in.Pool);
   if (a == 0)
   {
     execution.ParallelFor(size[1] * size[2],

@@ -12,6 +12,8 @@
 #include "Execution.h"
 
 #include <array>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace trivariate
@@ -32,19 +34,77 @@ struct BandedOperator
   BandedOperator Transposed() const;
 };
 
-/// A dense array of Size[0] x Size[1] x Size[2] numbers, the first index fastest.
+/// std::allocator that leaves numbers uninitialised, for arrays that are written before being read.
+template <typename T>
+struct UninitializedAllocator : std::allocator<T>
+{
+  template <typename U>
+  struct rebind
+  {
+    using other = UninitializedAllocator<U>;
+  };
+  template <typename U>
+  void construct(U* p) noexcept
+  {
+    ::new (static_cast<void*>(p)) U;
+  }
+  template <typename U, typename... Args>
+  void construct(U* p, Args&&... args)
+  {
+    ::new (static_cast<void*>(p)) U(std::forward<Args>(args)...);
+  }
+};
+using Buffer = std::vector<double, UninitializedAllocator<double>>;
+
+/**
+ * Memory of arrays that are no longer needed, kept for the next ones. A fit makes hundreds of large
+ * short-lived arrays; fetching and clearing fresh pages for each takes as long as filling it. For
+ * one thread.
+ */
+class ArrayPool
+{
+public:
+  Buffer Take(Index n);
+  void Give(Buffer&& buffer);
+
+private:
+  std::vector<Buffer> Free;
+};
+
+/// A dense array of Size[0] x Size[1] x Size[2] numbers, the first index fastest; made
+/// uninitialised.
 struct Array3
 {
   std::array<Index, 3> Size{ 0, 0, 0 };
-  std::vector<double> Values;
+  Buffer Values;
+  std::shared_ptr<ArrayPool> Pool;
 
   Array3() = default;
-  explicit Array3(const std::array<Index, 3>& size)
+  Array3(const std::array<Index, 3>& size, const std::shared_ptr<ArrayPool>& pool)
     : Size(size)
-    , Values(size[0] * size[1] * size[2], 0.0)
+    , Values(pool->Take(size[0] * size[1] * size[2]))
+    , Pool(pool)
   {
   }
+  Array3(Array3&& other) noexcept = default;
+  Array3& operator=(Array3&& other) noexcept
+  {
+    std::swap(this->Size, other.Size);
+    std::swap(this->Values, other.Values);
+    std::swap(this->Pool, other.Pool);
+    return *this;
+  }
+  Array3(const Array3&) = delete;
+  Array3& operator=(const Array3&) = delete;
+  ~Array3()
+  {
+    if (this->Pool)
+    {
+      this->Pool->Give(std::move(this->Values));
+    }
+  }
   bool Empty() const { return this->Values.empty(); }
+  Array3 Clone() const;
 };
 
 /// out = op applied along direction a of in. `in` must have op.Columns entries in that direction.

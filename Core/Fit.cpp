@@ -107,7 +107,7 @@ public:
     , Run(execution)
     , Grid(MakeAxes(samples, options))
     , System(samples, this->Grid, this->Run)
-    , Residuals(samples.Components, { { -1, -1, -1 }, {}, 0.0 })
+    , Residuals(samples.Components)
   {
     this->Run.Continue = [this, &execution](double)
     { return execution.Continue(this->Progress()); };

@@ -35,7 +35,7 @@ GridFitSystem::GridFitSystem(
   this->CountedVoxels = samples.Mask ? this->Voxels.Counts.back() : samples.Count();
   for (int c = 0; c < samples.Components; ++c)
   {
-    Array3 counted(samples.Size);
+    Array3 counted(samples.Size, this->Pool);
     std::copy_n(samples.Values + c * samples.Count(), samples.Count(), counted.Values.begin());
     double low = std::numeric_limits<double>::max(), high = -low;
     for (Index i = 0; i < samples.Count(); ++i)
@@ -137,6 +137,28 @@ Residual GridFitSystem::ComputeResidual(int component, const std::vector<double>
   // Without a mask the Gram matrix of the uniform basis is separable, so no voxel is touched: with
   // c the coefficients, m the moments of the samples and G that matrix, the residual has the
   // moments m - G c and the squared sum |f|^2 - c (2 m - G c).
+  const Array3 coefficients =
+    Synthesize(this->Grid, this->Expansions, this->Groups, d, this->Work, this->Pool, this->Run);
+  const auto multiply = [this](const Array3& in, int a)
+  { return Apply(this->Grid[a].Gram[this->Work[a]], a, in, this->Run); };
+  Array3 residual = multiply(multiply(multiply(coefficients, 0), 1), 2);
+  const Array3& samples = this->MomentsOnWorkLevel(component);
+  double sum = this->SquaredSums[component];
+  for (std::size_t i = 0; i < residual.Values.size(); ++i)
+  {
+    residual.Values[i] = samples.Values[i] - residual.Values[i];
+    sum -= coefficients.Values[i] * (samples.Values[i] + residual.Values[i]);
+  }
+  return { this->Work, std::move(residual), std::max(0.0, sum) };
+}
+
+//------------------------------------------------------------------------------
+const Array3& GridFitSystem::MomentsOnWorkLevel(int component)
+{
+  if (this->Work == this->Finest)
+  {
+    return this->SampleMoments[component];
+  }
   if (this->WorkMomentsLevel != this->Work)
   {
     this->WorkMoments.clear();
@@ -147,21 +169,7 @@ Residual GridFitSystem::ComputeResidual(int component, const std::vector<double>
     }
     this->WorkMomentsLevel = this->Work;
   }
-  const Array3 coefficients =
-    Synthesize(this->Grid, this->Expansions, this->Groups, d, this->Work, this->Run);
-  Array3 residual = coefficients;
-  for (int a = 0; a < 3; ++a)
-  {
-    residual = Apply(this->Grid[a].Gram[this->Work[a]], a, residual, this->Run);
-  }
-  const Array3& samples = this->WorkMoments[component];
-  double sum = this->SquaredSums[component];
-  for (std::size_t i = 0; i < residual.Values.size(); ++i)
-  {
-    residual.Values[i] = samples.Values[i] - residual.Values[i];
-    sum -= coefficients.Values[i] * (samples.Values[i] + residual.Values[i]);
-  }
-  return { this->Work, std::move(residual), std::max(0.0, sum) };
+  return this->WorkMoments[component];
 }
 
 //------------------------------------------------------------------------------
@@ -259,7 +267,7 @@ void GridFitSystem::AddGains(
 Array3 GridFitSystem::Reconstruct(const std::vector<double>& d) const
 {
   Array3 values =
-    Synthesize(this->Grid, this->Expansions, this->Groups, d, this->Finest, this->Run);
+    Synthesize(this->Grid, this->Expansions, this->Groups, d, this->Finest, this->Pool, this->Run);
   for (int a = 2; a >= 0; --a)
   {
     values = Apply(this->Grid[a].Collocation, a, values, this->Run);

@@ -34,9 +34,10 @@ struct SplitGain
 /// The residual of one attribute, as the fit sees it.
 struct Residual
 {
-  Levels Level;      ///< of the uniform basis
-  Array3 Moments;    ///< sums over the voxels of residual times the functions of that basis
-  double SquaredSum; ///< of the residual over the voxels; relative accuracy 1e-16 of the samples'
+  Levels Level{ -1, -1, -1 }; ///< of the uniform basis
+  Array3 Moments; ///< sums over the voxels of residual times the functions of that basis
+  double SquaredSum =
+    0.0; ///< of the residual over the voxels; relative accuracy 1e-16 of the samples'
 };
 
 class GridFitSystem
@@ -72,6 +73,7 @@ public:
   FitError Error(int component, const std::vector<double>& d) const;
 
 private:
+  const Array3& MomentsOnWorkLevel(int component);
   Array3 Reconstruct(const std::vector<double>& d) const;
   double SumOfLayers(const std::function<double(Index begin, Index end)>& term) const;
 
@@ -79,6 +81,7 @@ private:
   const Axes& Grid;
   const Execution& Run;
   Levels Finest;
+  std::shared_ptr<ArrayPool> Pool = std::make_shared<ArrayPool>();
   FunctionTable Functions;
   VoxelMask Voxels;
   Index CountedVoxels = 0;

@@ -158,7 +158,7 @@ void VisitMoments(const Axes& axes, const Array3& moments, const Levels& level,
 //------------------------------------------------------------------------------
 Array3 Synthesize(const Axes& axes, const std::vector<LevelFunction>& functions,
   const std::vector<LevelGroup>& groups, const std::vector<double>& coefficients,
-  const Levels& level, const Execution& execution)
+  const Levels& level, const std::shared_ptr<ArrayPool>& pool, const Execution& execution)
 {
   return Ascend(
     axes, 2, level[2], MakeTree(groups),
@@ -172,7 +172,8 @@ Array3 Synthesize(const Axes& axes, const std::vector<LevelFunction>& functions,
             axes, 0, level[0], inU,
             [&](int, const LevelGroup* group)
             {
-              Array3 target(SizeOf(axes, group->Level));
+              Array3 target(SizeOf(axes, group->Level), pool);
+              std::fill(target.Values.begin(), target.Values.end(), 0.0);
               Scatter(functions, *group, coefficients, target, execution);
               return target;
             },
@@ -216,30 +217,19 @@ void ContractLine(
 }
 
 //------------------------------------------------------------------------------
-Array3 Prolong(
-  const Axes& axes, Array3 coefficients, Levels from, const Levels& to, const Execution& execution)
+Array3 Restrict(const Axes& axes, const Array3& moments, Levels from, const Levels& to,
+  const Execution& execution)
 {
-  for (int a = 0; a < 3; ++a)
-  {
-    for (; from[a] < to[a]; ++from[a])
-    {
-      coefficients = Apply(axes[a].Prolong[from[a]], a, coefficients, execution);
-    }
-  }
-  return coefficients;
-}
-
-//------------------------------------------------------------------------------
-Array3 Restrict(
-  const Axes& axes, Array3 moments, Levels from, const Levels& to, const Execution& execution)
-{
+  Array3 restricted;
+  const Array3* current = &moments;
   for (int a = 2; a >= 0; --a)
   {
     for (; from[a] > to[a]; --from[a])
     {
-      moments = Apply(axes[a].Restrict[from[a] - 1], a, moments, execution);
+      restricted = Apply(axes[a].Restrict[from[a] - 1], a, *current, execution);
+      current = &restricted;
     }
   }
-  return moments;
+  return current == &moments ? moments.Clone() : std::move(restricted);
 }
 }

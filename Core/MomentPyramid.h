@@ -54,7 +54,7 @@ void VisitMoments(const Axes& axes, const Array3& moments, const Levels& level,
 /// sum_i coefficients[i] * function i, as coefficients of the uniform basis on `level`.
 Array3 Synthesize(const Axes& axes, const std::vector<LevelFunction>& functions,
   const std::vector<LevelGroup>& groups, const std::vector<double>& coefficients,
-  const Levels& level, const Execution& execution);
+  const Levels& level, const std::shared_ptr<ArrayPool>& pool, const Execution& execution);
 
 /**
  * The moments of `function` with its factor in direction a left open: line[q] belongs to the
@@ -63,11 +63,9 @@ Array3 Synthesize(const Axes& axes, const std::vector<LevelFunction>& functions,
 void ContractLine(
   const Array3& moments, const LevelFunction& function, int a, std::vector<double>& line);
 
-/// Takes an array from one level to another (all directions up, or all down).
-Array3 Prolong(
-  const Axes& axes, Array3 coefficients, Levels from, const Levels& to, const Execution& execution);
-Array3 Restrict(
-  const Axes& axes, Array3 moments, Levels from, const Levels& to, const Execution& execution);
+/// Takes moments from one level to another that is nowhere finer.
+Array3 Restrict(const Axes& axes, const Array3& moments, Levels from, const Levels& to,
+  const Execution& execution);
 }
 
 #endif

@@ -71,7 +71,7 @@ Axes MakeUniformAxes(const std::array<Index, 3>& samples, Index maximum)
 std::vector<double> FitUniform(
   const GridSamples& samples, int component, const Axes& axes, const Execution& execution)
 {
-  Array3 values(samples.Size);
+  Array3 values(samples.Size, std::make_shared<ArrayPool>());
   std::copy_n(samples.Values + component * samples.Count(), samples.Count(), values.Values.begin());
   // The order of the directions matters for time alone: the fastest shrinks the array first.
   for (int a = 0; a < 3; ++a)
@@ -80,6 +80,6 @@ std::vector<double> FitUniform(
     values =
       Apply(InverseGram(axes[a]), a, Apply(axes[a].Moments, a, values, execution), execution);
   }
-  return std::move(values.Values);
+  return { values.Values.begin(), values.Values.end() };
 }
 }
