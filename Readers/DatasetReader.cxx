@@ -76,8 +76,18 @@ bool OnlyKnownFilters(hid_t creation)
 // The attribute `name` of an object, closed when there is none.
 Handle OpenAttribute(hid_t object, const char* name)
 {
-  return H5Aexists(object, name) > 0 ? Handle(H5Aopen(object, name, H5P_DEFAULT), H5Aclose)
-                                     : Handle();
+  const htri_t exists = H5Aexists(object, name);
+  Handle attribute(exists > 0 ? H5Aopen(object, name, H5P_DEFAULT) : -1, H5Aclose);
+  hdf5::Require(exists == 0 || attribute, std::string("Its ") + name + " is damaged");
+  return attribute;
+}
+
+//------------------------------------------------------------------------------
+bool LinkExists(hid_t file, const std::string& path)
+{
+  const htri_t exists = H5Lexists(file, path.c_str(), H5P_DEFAULT);
+  hdf5::Require(exists >= 0, "What should be " + path + " is damaged");
+  return exists > 0;
 }
 }
 
@@ -140,9 +150,8 @@ DatasetReader::DatasetReader(hid_t file, std::uint64_t fileSize)
 bool DatasetReader::Has(const std::string& path) const
 {
   const std::size_t slash = path.find('/');
-  return (slash == std::string::npos ||
-           H5Lexists(this->File, path.substr(0, slash).c_str(), H5P_DEFAULT) > 0) &&
-         H5Lexists(this->File, path.c_str(), H5P_DEFAULT) > 0;
+  return (slash == std::string::npos || LinkExists(this->File, path.substr(0, slash))) &&
+         LinkExists(this->File, path);
 }
 
 //------------------------------------------------------------------------------

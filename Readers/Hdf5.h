@@ -9,6 +9,7 @@
 
 #include <hdf5.h>
 
+#include <exception>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -53,7 +54,9 @@ private:
   Closer Close = nullptr;
 };
 
-/// Keeps HDF5 from printing its errors while it lives (in this thread).
+/// Keeps HDF5 from printing its errors while it lives (in this thread), and ever after when an
+/// exception ends it: HDF5 1.10 loses memory of a damaged file and would complain about that, on
+/// the terminal, when the process ends.
 class Quiet
 {
 public:
@@ -62,7 +65,13 @@ public:
     H5Eget_auto2(H5E_DEFAULT, &this->Print, &this->Data);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }
-  ~Quiet() { H5Eset_auto2(H5E_DEFAULT, this->Print, this->Data); }
+  ~Quiet()
+  {
+    if (std::uncaught_exceptions() == 0)
+    {
+      H5Eset_auto2(H5E_DEFAULT, this->Print, this->Data);
+    }
+  }
   Quiet(const Quiet&) = delete;
   void operator=(const Quiet&) = delete;
 

@@ -55,6 +55,7 @@ Handle OpenFile(const std::string& path)
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   // Many network file systems know no locks, and what rename replaces needs none.
   H5Pset_file_locking(access, false, true);
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
   Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
   Require(bool(file), Damaged);
   return file;
@@ -72,6 +73,7 @@ Handle OpenImage(const void* bytes, std::size_t size)
   }
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fapl_core(access, 1 << 16, false);
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
   Require(H5Pset_file_image(access, const_cast<void*>(bytes), size) >= 0, Damaged);
   Handle file(H5Fopen("image.tspline", H5F_ACC_RDONLY, access), H5Fclose);
   Require(bool(file), Damaged);
@@ -221,9 +223,9 @@ TSplineModel ReadModel(
 //------------------------------------------------------------------------------
 bool IsTSplineFile(const std::string& path)
 {
-  const hdf5::Quiet quiet;
   try
   {
+    const hdf5::Quiet quiet;
     const Handle file = OpenFile(path);
     return ReadString(file, file::Format) == file::FormatName;
   }
