@@ -34,6 +34,10 @@ public:
   /// Whether X, Y, Z are one affine map of u, v, w (to 1e-12 of the size of the geometry).
   bool Affine() const { return this->IsAffine; }
 
+  /// Where Affine(): (X, Y, Z) = Offset() + Matrix() (u, v, w), the matrix row by row.
+  const std::array<double, 3>& Offset() const { return this->AffineOrigin; }
+  const std::array<double, 9>& Matrix() const { return this->AffineMatrix; }
+
   /**
    * Parameters of a point in space; false (and `parameters` unchanged) when no cell maps there to
    * 1e-10 of the size of the geometry. Where the geometry folds over itself one of the solutions is

@@ -31,30 +31,19 @@ using Lattice = std::array<std::vector<double>, 3>;
  * The parameters of an image's points as a lattice, where the spline's geometry is affine and each
  * of the image's axes runs along one parameter, in the same order and sense; empty otherwise.
  */
-Lattice AlignedLattice(const TSplineView& view, vtkImageData* image)
+Lattice AlignedLattice(const InverseMap& map, const BezierMesh& mesh, vtkImageData* image)
 {
-  const Evaluator geometry(view.Model.Spline, view.Mesh, { 0, 1, 2 });
-  double middle[3], position[3], gradients[9];
-  for (int a = 0; a < 3; ++a)
-  {
-    const KnotLine& line = view.Mesh.KnotLines()[a];
-    middle[a] = 0.5 * (line.front() + line.back());
-  }
-  EvaluatorOutput output;
-  output.Values = position;
-  output.Gradients = gradients;
-  if (!geometry.Evaluate(middle, output))
+  if (!map.Affine())
   {
     return {};
   }
-  const InverseJacobian inverse(gradients);
-
+  const InverseJacobian inverse(map.Matrix().data());
+  const int* extent = image->GetExtent();
   double corner[3];
-  image->TransformIndexToPhysicalPoint(
-    image->GetExtent()[0], image->GetExtent()[2], image->GetExtent()[4], corner);
+  image->TransformIndexToPhysicalPoint(extent[0], extent[2], extent[4], corner);
   for (int a = 0; a < 3; ++a)
   {
-    corner[a] -= position[a];
+    corner[a] -= map.Offset()[a];
   }
   const std::array<double, 3> start = inverse.Step(corner);
   Lattice lattice;
@@ -69,19 +58,19 @@ Lattice AlignedLattice(const TSplineView& view, vtkImageData* image)
     const int count = image->GetDimensions()[a];
     for (int b = 0; b < 3; ++b)
     {
-      const KnotLine& line = view.Mesh.KnotLines()[b];
+      const KnotLine& line = mesh.KnotLines()[b];
       const double tolerance = 1e-10 * (line.back() - line.front());
       if (b == a ? !(step[a] > 0.0) : std::abs(step[b] * (count - 1)) > tolerance)
       {
         return {};
       }
     }
-    const KnotLine& line = view.Mesh.KnotLines()[a];
+    const KnotLine& line = mesh.KnotLines()[a];
     const double tolerance = 1e-10 * (line.back() - line.front());
     for (int i = 0; i < count; ++i)
     {
       // A point on the boundary must not fall out of the domain by rounding.
-      const double u = middle[a] + start[a] + i * step[a];
+      const double u = start[a] + i * step[a];
       const double nearest = std::min(std::max(u, line.front()), line.back());
       lattice[a].push_back(std::abs(u - nearest) <= tolerance ? nearest : u);
     }
@@ -107,7 +96,7 @@ void FillPoints(const TSplineView& view, vtkDataSet* output, const Execution& ex
 
   const InverseMap inverse(view.Model.Spline, view.Mesh, execution.Part(0.1, 0.2));
   vtkImageData* image = vtkImageData::SafeDownCast(output);
-  const Lattice lattice = image && inverse.Affine() ? AlignedLattice(view, image) : Lattice();
+  const Lattice lattice = image ? AlignedLattice(inverse, view.Mesh, image) : Lattice();
   if (!lattice[0].empty())
   {
     sampler.SampleLattice(lattice, found, execution.Part(0.2, 1.0));
