@@ -6,5 +6,6 @@ source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 export BUILD_DIR=${BUILD_DIR:-$source_dir/build}
 
 "$source_dir/Utilities/setup.sh"
-echo "test: for Python, PYTHONPATH=$(cat "$BUILD_DIR/pythonpath.txt")"
+. "$BUILD_DIR/environment.sh"
+echo "test: for Python, PYTHONPATH=$PYTHONPATH"
 exec ctest --test-dir "$BUILD_DIR" --output-on-failure -j "$(nproc)" "$@"
