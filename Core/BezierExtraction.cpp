@@ -17,30 +17,16 @@ using Cubic = std::array<double, 4>; // Bernstein coefficients
 // The Bernstein coefficients on the part [s, r] of the unit interval: de Casteljau's cut at r, then
 // the cut of what is left of it at s / r. Convex combinations only: what is not negative stays so,
 // and what vanishes at an end vanishes exactly.
-Cubic Restrict(Cubic c, double s, double r)
+TRIVARIATE_INLINE Cubic Restrict(const Cubic& c, double r, double sOverR)
 {
-  if (r < 1.0)
-  {
-    for (int degree = 1; degree < 4; ++degree)
-    {
-      for (int i = 3; i >= degree; --i)
-      {
-        c[i] = (1.0 - r) * c[i - 1] + r * c[i];
-      }
-    }
-  }
-  if (s > 0.0)
-  {
-    const double cut = s / r;
-    for (int degree = 1; degree < 4; ++degree)
-    {
-      for (int i = 0; i + degree < 4; ++i)
-      {
-        c[i] = (1.0 - cut) * c[i] + cut * c[i + 1];
-      }
-    }
-  }
-  return c;
+  const auto cutAtR = [r](double x, double y) { return (1.0 - r) * x + r * y; };
+  const double d1 = cutAtR(c[0], c[1]), d2 = cutAtR(c[1], c[2]), d3 = cutAtR(c[2], c[3]);
+  const double e2 = cutAtR(d1, d2), e3 = cutAtR(d2, d3);
+  const double f3 = cutAtR(e2, e3); // left of the cut: c0, d1, e2, f3
+  const auto cutAtS = [sOverR](double x, double y) { return (1.0 - sOverR) * x + sOverR * y; };
+  const double g0 = cutAtS(c[0], d1), g1 = cutAtS(d1, e2), g2 = cutAtS(e2, f3);
+  const double h0 = cutAtS(g0, g1), h1 = cutAtS(g1, g2);
+  return { cutAtS(h0, h1), h1, g2, f3 };
 }
 
 // The four polynomial pieces of every univariate function of one direction, each computed once.
@@ -68,14 +54,11 @@ public:
   {
     const LocalKnots& k = this->Functions[function];
     const int piece = (k[1] <= low) + (k[2] <= low) + (k[3] <= low);
-    const Cubic& c = this->Pieces[4 * function + piece];
-    if (k[piece] == low && k[piece + 1] == high)
-    {
-      return c;
-    }
-    const double origin = this->Line[k[piece]];
-    const double length = this->Line[k[piece + 1]] - origin;
-    return Restrict(c, (this->Line[low] - origin) / length, (this->Line[high] - origin) / length);
+    const double begin = this->Line[k[piece]];
+    const double end = this->Line[k[piece + 1]];
+    const double a = this->Line[low] - begin;
+    const double b = this->Line[high] - begin;
+    return Restrict(this->Pieces[4 * function + piece], b / (end - begin), a / b);
   }
 
   std::size_t Size() const { return this->Functions.size(); }
@@ -126,25 +109,62 @@ private:
   std::int32_t Low = -1, High = -1;
 };
 
-// out[c] += b x in[c] for every component: the outer product of four coefficients with N numbers.
-template <int N>
-inline void AddOuterProducts(
-  int components, const double* __restrict b, const double* __restrict in, double* __restrict out)
+// One active function's share: its univariate coefficients on the cell and its homogeneous row.
+struct Term
 {
-  for (int c = 0; c < components; ++c, in += N, out += 4 * N)
+  const double *U, *V, *W, *Row;
+};
+
+// Adds sum_i h_i u_i(u) v_i(v) w_i(w) for C of the components of the rows h_i, from `first` on.
+// Functions with the same w follow each other and are summed over u and v first.
+template <int C>
+TRIVARIATE_INLINE void AddTerms(const std::vector<Term>& terms, int first, double* __restrict out)
+{
+  for (auto term = terms.begin(); term != terms.end();)
   {
-    for (int j = 0; j < 4; ++j)
+    const double* w = term->W;
+    double sum[C][16] = {};
+    for (; term != terms.end() && term->W == w; ++term)
     {
-      for (int i = 0; i < N; ++i)
+      for (int c = 0; c < C; ++c)
       {
-        out[j * N + i] += b[j] * in[i];
+        for (int j = 0; j < 4; ++j)
+        {
+          const double hv = term->Row[first + c] * term->V[j];
+          for (int i = 0; i < 4; ++i)
+          {
+            sum[c][4 * j + i] += hv * term->U[i];
+          }
+        }
+      }
+    }
+    for (int c = 0; c < C; ++c)
+    {
+      for (int k = 0; k < 4; ++k)
+      {
+        for (int m = 0; m < 16; ++m)
+        {
+          out[64 * c + 16 * k + m] += w[k] * sum[c][m];
+        }
       }
     }
   }
 }
 
-// Sums over the active functions, sum_i h_i u_i(u) v_i(v) w_i(w) with homogeneous rows h_i. They
-// come sorted by w, then v, so functions that share both are summed over u first, and so on.
+TRIVARIATE_INLINE void SumTerms(const std::vector<Term>& terms, int components, double* out)
+{
+  int c = 0;
+  for (; c + 4 <= components; c += 4)
+  {
+    AddTerms<4>(terms, c, out + 64 * c);
+  }
+  for (; c < components; ++c)
+  {
+    AddTerms<1>(terms, c, out + 64 * c);
+  }
+}
+
+// Extracts cell after cell, into zeros.
 class CellExtractor
 {
 public:
@@ -155,8 +175,6 @@ public:
     , Components(components)
     , Functions{ RestrictedFunctions(pieces[0]), RestrictedFunctions(pieces[1]),
       RestrictedFunctions(pieces[2]) }
-    , SumU(4 * components)
-    , SumUV(16 * components)
   {
   }
 
@@ -167,28 +185,16 @@ public:
     {
       this->Functions[a].SetInterval(box.Low[a], box.High[a]);
     }
-    std::fill_n(out, 64 * this->Components, 0.0);
     const IdRange active = this->Mesh.ActiveFunctions(cell);
-    for (const std::int32_t* i = active.begin(); i != active.end();)
+    this->Terms.resize(active.size());
+    auto term = this->Terms.begin();
+    for (const std::int32_t i : active)
     {
-      const std::int32_t w = this->Mesh.UnivariateOf(*i, 2);
-      std::fill(this->SumUV.begin(), this->SumUV.end(), 0.0);
-      while (i != active.end() && this->Mesh.UnivariateOf(*i, 2) == w)
-      {
-        const std::int32_t v = this->Mesh.UnivariateOf(*i, 1);
-        std::fill(this->SumU.begin(), this->SumU.end(), 0.0);
-        for (; i != active.end() && this->Mesh.UnivariateOf(*i, 1) == v &&
-               this->Mesh.UnivariateOf(*i, 2) == w;
-             ++i)
-        {
-          AddOuterProducts<1>(this->Components, this->Functions[0][this->Mesh.UnivariateOf(*i, 0)],
-            &this->Rows[*i * this->Components], this->SumU.data());
-        }
-        AddOuterProducts<4>(
-          this->Components, this->Functions[1][v], this->SumU.data(), this->SumUV.data());
-      }
-      AddOuterProducts<16>(this->Components, this->Functions[2][w], this->SumUV.data(), out);
+      *term++ = { this->Functions[0][this->Mesh.UnivariateOf(i, 0)],
+        this->Functions[1][this->Mesh.UnivariateOf(i, 1)],
+        this->Functions[2][this->Mesh.UnivariateOf(i, 2)], &this->Rows[i * this->Components] };
     }
+    SumTerms(this->Terms, this->Components, out);
   }
 
 private:
@@ -196,7 +202,7 @@ private:
   const std::vector<double>& Rows;
   int Components;
   std::array<RestrictedFunctions, 3> Functions;
-  std::vector<double> SumU, SumUV; // sums over functions that differ in u, in u and v only
+  std::vector<Term> Terms;
 };
 
 // w_i p_i[c] or w_i, a row a function.
@@ -219,6 +225,13 @@ std::vector<double> HomogeneousRows(const TSpline& spline, const std::vector<int
 std::vector<double> ExtractBezier(const TSpline& spline, const BezierMesh& mesh,
   const std::vector<int>& components, const Execution& execution)
 {
+  return ExtractBezier(spline, mesh, components, 0, mesh.Size(), execution);
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> ExtractBezier(const TSpline& spline, const BezierMesh& mesh,
+  const std::vector<int>& components, Index firstCell, Index lastCell, const Execution& execution)
+{
   for (const int c : components)
   {
     if (c != Denominator && (c < 0 || c >= spline.Components))
@@ -232,18 +245,18 @@ std::vector<double> ExtractBezier(const TSpline& spline, const BezierMesh& mesh,
   const std::array<UnivariatePieces, 3> pieces = { UnivariatePieces(mesh, 0),
     UnivariatePieces(mesh, 1), UnivariatePieces(mesh, 2) };
   const Index stride = 64 * static_cast<Index>(components.size());
-  std::vector<double> bezier(mesh.Size() * stride);
+  std::vector<double> bezier((lastCell - firstCell) * stride);
   constexpr Index Batch = 1 << 16; // between two looks at the abort flag
-  for (Index first = 0; first < mesh.Size(); first += Batch)
+  for (Index first = firstCell; first < lastCell; first += Batch)
   {
-    execution.Check(static_cast<double>(first) / mesh.Size());
-    execution.ParallelFor(std::min(Batch, mesh.Size() - first),
+    execution.Check(static_cast<double>(first - firstCell) / (lastCell - firstCell));
+    execution.ParallelFor(std::min(Batch, lastCell - first),
       [&](Index begin, Index end)
       {
         CellExtractor extractor(mesh, pieces, rows, static_cast<int>(components.size()));
         for (Index cell = first + begin; cell < first + end; ++cell)
         {
-          extractor.Extract(cell, &bezier[cell * stride]);
+          extractor.Extract(cell, &bezier[(cell - firstCell) * stride]);
         }
       });
   }

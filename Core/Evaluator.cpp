@@ -135,11 +135,11 @@ void EvaluateBlock(const Block& block, int components, bool rational, const Eval
   }
 }
 
-// Whether every coefficient of the denominator is one to the rounding of its sum.
-bool IsOne(const std::vector<double>& denominator)
+// Whether coefficients of a denominator are one to the rounding of their sums.
+bool AreOne(const double* coefficients)
 {
   return std::all_of(
-    denominator.begin(), denominator.end(), [](double d) { return std::abs(d - 1.0) <= 1e-13; });
+    coefficients, coefficients + 64, [](double d) { return std::abs(d - 1.0) <= 1e-13; });
 }
 }
 
@@ -153,15 +153,32 @@ Evaluator::Evaluator(const TSpline& spline, const BezierMesh& mesh,
   {
     throw std::invalid_argument("No component of the T-spline was chosen for evaluation.");
   }
-  this->HasDenominator =
-    !IsOne(ExtractBezier(spline, mesh, { Denominator }, execution.Part(0.0, 0.4)));
   std::vector<int> columns = components;
+  columns.push_back(Denominator);
+  const Index stride = 64 * static_cast<Index>(columns.size());
+  this->CellStride = stride - 64;
+  this->HasDenominator = false;
+  this->Bezier.resize(mesh.Size() * this->CellStride);
+  // The denominators are looked at and dropped, until one is found that is needed.
+  constexpr Index Batch = 1 << 15;
+  for (Index first = 0; first < mesh.Size() && !this->HasDenominator; first += Batch)
+  {
+    const Index last = std::min(first + Batch, mesh.Size());
+    const auto bezier = ExtractBezier(spline, mesh, columns, first, last,
+      execution.Part(1.0 * first / mesh.Size(), 1.0 * last / mesh.Size()));
+    for (Index cell = first; cell < last && !this->HasDenominator; ++cell)
+    {
+      const double* coefficients = &bezier[(cell - first) * stride];
+      this->HasDenominator = !AreOne(coefficients + this->CellStride);
+      std::copy_n(coefficients, this->CellStride, &this->Bezier[cell * this->CellStride]);
+    }
+  }
   if (this->HasDenominator)
   {
-    columns.push_back(Denominator);
+    this->CellStride = stride;
+    this->Bezier = std::vector<double>(); // free before the next is made
+    this->Bezier = ExtractBezier(spline, mesh, columns, execution);
   }
-  this->CellStride = 64 * static_cast<Index>(columns.size());
-  this->Bezier = ExtractBezier(spline, mesh, columns, execution.Part(0.4, 1.0));
 }
 
 //------------------------------------------------------------------------------

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InverseMap.h"
 
+#include "BezierExtraction.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -67,21 +69,23 @@ InverseMap::InverseMap(const TSpline& spline, const BezierMesh& mesh, const Exec
   {
     throw std::invalid_argument("A T-spline without blending functions has no inverse map.");
   }
-  this->Geometry.emplace(spline, mesh, std::vector<int>{ 0, 1, 2 }, execution);
-  std::vector<Node> leaves = this->MakeLeaves();
-  Node box = leaves[0];
-  for (const Node& leaf : leaves)
+  Vector low, high;
+  low.fill(Infinity);
+  high.fill(-Infinity);
+  for (Index i = 0; i < spline.Size(); ++i)
   {
-    Enclose(leaf.Low, leaf.High, box.Low, box.High);
+    const double* p = spline.ControlPoint(i);
+    const Vector x = { p[0], p[1], p[2] };
+    Enclose(x, x, low, high);
   }
-  this->Size =
-    Length({ box.High[0] - box.Low[0], box.High[1] - box.Low[1], box.High[2] - box.Low[2] });
-  this->IsAffine = !this->Geometry->Rational() && this->DetectAffine();
+  this->Size = Length({ high[0] - low[0], high[1] - low[1], high[2] - low[2] });
+  this->IsAffine = this->DetectAffine(spline, execution.Part(0.0, 0.4));
   if (this->IsAffine)
   {
-    this->Geometry.reset();
     return;
   }
+  this->Geometry.emplace(spline, mesh, std::vector<int>{ 0, 1, 2 }, execution.Part(0.4, 0.9));
+  std::vector<Node> leaves = this->MakeLeaves();
   this->Tree.reserve(2 * leaves.size());
   this->BuildTree(leaves, 0, leaves.size());
 }
@@ -151,32 +155,61 @@ std::int32_t InverseMap::BuildTree(std::vector<Node>& leaves, std::size_t first,
 }
 
 //------------------------------------------------------------------------------
-// The affine map through the corners of the largest cell is compared with all control points: they
-// lie at thirds of their cells if and only if the geometry is affine.
-bool InverseMap::DetectAffine()
+// The affine map through the corners of the largest cell is compared with all cells' control
+// points: they lie at thirds of their cells if and only if the geometry is affine.
+bool InverseMap::DetectAffine(const TSpline& spline, const Execution& execution)
 {
+  const std::vector<int> columns = { 0, 1, 2, Denominator };
+  const Index count = this->Cells->Size();
   const auto volume = [this](Index cell)
   {
     const auto b = this->Cells->Bounds(cell);
     return (b[1] - b[0]) * (b[3] - b[2]) * (b[5] - b[4]);
   };
   Index largest = 0;
-  for (Index cell = 1; cell < this->Cells->Size(); ++cell)
+  for (Index cell = 1; cell < count; ++cell)
   {
     largest = volume(cell) > volume(largest) ? cell : largest;
   }
-  const auto box = this->Cells->Bounds(largest);
-  constexpr int Last[3] = { 3, 12, 48 }; // the control points at the far ends of the edges
+  this->SetAffine(ExtractBezier(spline, *this->Cells, columns, largest, largest + 1).data(),
+    this->Cells->Bounds(largest));
+  Vector ignored;
+  if (!Solve(this->AffineMatrix, { 0.0, 0.0, 0.0 }, ignored))
+  {
+    return false;
+  }
+  constexpr Index Batch = 1 << 14;
+  for (Index first = 0; first < count; first += Batch)
+  {
+    const Index last = std::min(first + Batch, count);
+    const auto bezier = ExtractBezier(spline, *this->Cells, columns, first, last,
+      execution.Part(1.0 * first / count, 1.0 * last / count));
+    for (Index cell = first; cell < last; ++cell)
+    {
+      if (!this->IsAffineCell(&bezier[256 * (cell - first)], this->Cells->Bounds(cell)))
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+// The affine map through four corners of a cell; the identity if it is that to rounding.
+void InverseMap::SetAffine(const double* bezier, const std::array<double, 6>& bounds)
+{
+  constexpr int Corner[3] = { 3, 12, 48 }; // the control points at the far ends of the edges
   double offIdentity = 0.0;
   for (int a = 0; a < 3; ++a)
   {
-    const double* c = this->Geometry->Coefficients(largest) + 64 * a;
+    const double* c = bezier + 64 * a;
     this->AffineOrigin[a] = c[0];
     for (int b = 0; b < 3; ++b)
     {
       double& m = this->AffineMatrix[3 * a + b];
-      m = (c[Last[b]] - c[0]) / (box[2 * b + 1] - box[2 * b]);
-      this->AffineOrigin[a] -= m * box[2 * b];
+      m = (c[Corner[b]] - c[0]) / (bounds[2 * b + 1] - bounds[2 * b]);
+      this->AffineOrigin[a] -= m * bounds[2 * b];
       offIdentity = std::max(offIdentity, std::abs(m - (a == b ? 1.0 : 0.0)));
     }
     offIdentity = std::max(offIdentity, std::abs(this->AffineOrigin[a]) / this->Size);
@@ -186,25 +219,34 @@ bool InverseMap::DetectAffine()
     this->AffineOrigin = {};
     this->AffineMatrix = { 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0 };
   }
+}
 
-  double off = 0.0;
-  for (Index cell = 0; cell < this->Cells->Size(); ++cell)
+//------------------------------------------------------------------------------
+// Whether a cell's 64 x (X, Y, Z, denominator) are those of the affine map.
+bool InverseMap::IsAffineCell(const double* bezier, const std::array<double, 6>& bounds) const
+{
+  for (int n = 0; n < 64; ++n)
   {
-    const auto b = this->Cells->Bounds(cell);
-    const double* c = this->Geometry->Coefficients(cell);
-    for (int n = 0; n < 64; ++n)
+    const int third[3] = { n % 4, n / 4 % 4, n / 16 };
+    Vector u;
+    for (int a = 0; a < 3; ++a)
     {
-      const Vector expected = this->AffineImage({ b[0] + (b[1] - b[0]) * (n % 4) / 3.0,
-        b[2] + (b[3] - b[2]) * (n / 4 % 4) / 3.0, b[4] + (b[5] - b[4]) * (n / 16) / 3.0 });
-      for (int a = 0; a < 3; ++a)
+      u[a] = bounds[2 * a] + (bounds[2 * a + 1] - bounds[2 * a]) * third[a] / 3.0;
+    }
+    const Vector x = this->AffineImage(u);
+    for (int a = 0; a < 3; ++a)
+    {
+      if (!(std::abs(bezier[64 * a + n] - x[a]) <= AffineTolerance * this->Size))
       {
-        off = std::max(off, std::abs(c[64 * a + n] - expected[a]));
+        return false;
       }
     }
+    if (!(std::abs(bezier[192 + n] - 1.0) <= AffineTolerance))
+    {
+      return false;
+    }
   }
-  Vector ignored;
-  return off <= AffineTolerance * this->Size &&
-         Solve(this->AffineMatrix, { 0.0, 0.0, 0.0 }, ignored);
+  return true;
 }
 
 //------------------------------------------------------------------------------

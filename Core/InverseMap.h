@@ -67,7 +67,9 @@ private:
   };
 
   std::vector<Node> MakeLeaves() const;
-  bool DetectAffine();
+  bool DetectAffine(const TSpline& spline, const Execution& execution);
+  void SetAffine(const double* bezier, const std::array<double, 6>& bounds);
+  bool IsAffineCell(const double* bezier, const std::array<double, 6>& bounds) const;
   Vector AffineImage(const Vector& parameters) const;
   std::int32_t BuildTree(std::vector<Node>& leaves, std::size_t first, std::size_t last);
   bool FindAffine(const Vector& point, Vector& parameters) const;
@@ -80,7 +82,7 @@ private:
   const BezierMesh* Cells;
   std::optional<Evaluator> Geometry; // none if affine
   std::vector<Node> Tree;
-  double Size; // diagonal of the bounding box of the geometry
+  double Size; // diagonal of the bounding box of the control points
   bool IsAffine = false;
   Vector AffineOrigin{};                // (X, Y, Z) = AffineOrigin + AffineMatrix (u, v, w)
   std::array<double, 9> AffineMatrix{}; // row by row
