@@ -334,10 +334,12 @@ bool InverseMap::Newton(const Vector& point, Vector& parameters) const
     {
       break;
     }
+    // Close enough, only full steps are worth their while.
+    const int halvings = here.Distance <= AcceptedResidual * this->Size ? 1 : MaximumHalvings;
     Place there;
     bool closer = false;
     double damping = 1.0;
-    for (int halving = 0; halving < MaximumHalvings && !closer; ++halving, damping *= 0.5)
+    for (int halving = 0; halving < halvings && !closer; ++halving, damping *= 0.5)
     {
       for (int a = 0; a < 3; ++a)
       {
