@@ -34,25 +34,6 @@ bool HasType(hid_t type, DatasetReader::Type wanted)
 }
 
 //------------------------------------------------------------------------------
-// Each name on the way must be a hard link: soft and external ones may lead anywhere.
-bool AllLinksHard(hid_t file, const std::string& path)
-{
-  for (std::size_t end = path.find('/');; end = path.find('/', end + 1))
-  {
-    H5L_info_t info;
-    const std::string part = path.substr(0, end);
-    if (H5Lget_info(file, part.c_str(), &info, H5P_DEFAULT) < 0 || info.type != H5L_TYPE_HARD)
-    {
-      return false;
-    }
-    if (end == std::string::npos)
-    {
-      return true;
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
 // Others would be searched for as plugins, or are more code than is needed for reading numbers.
 bool OnlyKnownFilters(hid_t creation)
 {
@@ -80,14 +61,6 @@ Handle OpenAttribute(hid_t object, const char* name)
   Handle attribute(exists > 0 ? H5Aopen(object, name, H5P_DEFAULT) : -1, H5Aclose);
   hdf5::Require(exists == 0 || attribute, std::string("Its ") + name + " is damaged");
   return attribute;
-}
-
-//------------------------------------------------------------------------------
-bool LinkExists(hid_t file, const std::string& path)
-{
-  const htri_t exists = H5Lexists(file, path.c_str(), H5P_DEFAULT);
-  hdf5::Require(exists >= 0, "What should be " + path + " is damaged");
-  return exists > 0;
 }
 }
 
@@ -134,7 +107,7 @@ void Dataset::ReadSlab(
   hdf5::Require(
     H5Sselect_hyperslab(fileSpace, H5S_SELECT_SET, start, nullptr, count, nullptr) >= 0 &&
       H5Dread(this->Id, memoryType, memorySpace, fileSpace, H5P_DEFAULT, values) >= 0,
-    "The dataset " + this->Name + " cannot be read; the file is damaged.");
+    "The dataset " + this->Name + " cannot be read; the file is damaged");
 }
 
 //------------------------------------------------------------------------------
@@ -149,9 +122,24 @@ DatasetReader::DatasetReader(hid_t file, std::uint64_t fileSize)
 //------------------------------------------------------------------------------
 bool DatasetReader::Has(const std::string& path) const
 {
-  const std::size_t slash = path.find('/');
-  return (slash == std::string::npos || LinkExists(this->File, path.substr(0, slash))) &&
-         LinkExists(this->File, path);
+  for (std::size_t end = path.find('/');; end = path.find('/', end + 1))
+  {
+    const std::string part = path.substr(0, end);
+    const htri_t exists = H5Lexists(this->File, part.c_str(), H5P_DEFAULT);
+    hdf5::Require(exists >= 0, "What should be " + part + " is damaged");
+    if (exists == 0)
+    {
+      return false;
+    }
+    H5L_info_t info;
+    hdf5::Require(
+      H5Lget_info(this->File, part.c_str(), &info, H5P_DEFAULT) >= 0 && info.type == H5L_TYPE_HARD,
+      part + " is a link to somewhere else, which is not followed");
+    if (end == std::string::npos)
+    {
+      return true;
+    }
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -162,7 +150,6 @@ Dataset DatasetReader::Open(
   { hdf5::Require(good, "The dataset " + path + " " + fault + "."); };
 
   require(this->Has(path), "is missing");
-  require(AllLinksHard(this->File, path), "is a link to somewhere else, which is not followed");
   Dataset dataset;
   dataset.Name = path;
   dataset.Id = Handle(H5Dopen2(this->File, path.c_str(), H5P_DEFAULT), H5Dclose);
@@ -171,8 +158,8 @@ Dataset DatasetReader::Open(
   const Handle creation(H5Dget_create_plist(dataset.Id), H5Pclose);
   const H5D_layout_t layout = H5Pget_layout(creation);
   require(
-    layout != H5D_VIRTUAL && layout != H5D_LAYOUT_ERROR && H5Pget_external_count(creation) == 0,
-    "is stored outside of the file, which is not followed");
+    (layout == H5D_CHUNKED || layout == H5D_CONTIGUOUS) && H5Pget_external_count(creation) == 0,
+    "is not stored in chunks or in one piece in this file");
   require(OnlyKnownFilters(creation), "uses a filter other than shuffle, deflate and fletcher32");
 
   const Handle storedType(H5Dget_type(dataset.Id), H5Tclose);

@@ -68,7 +68,8 @@ public:
   /// `fileSize` in bytes bounds what all datasets together may claim to be stored in.
   DatasetReader(hid_t file, std::uint64_t fileSize);
 
-  /// Whether there is something at a path of one or two names.
+  /// Whether there is something at a path of one or two names. Throws std::runtime_error when a
+  /// name on the way is a soft or external link, which may lead anywhere, or is damaged.
   bool Has(const std::string& path) const;
 
   /**
