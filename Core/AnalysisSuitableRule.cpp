@@ -34,11 +34,6 @@ bool SupportHolds(const BlendingFunction& f, const GridIndex& unit)
          f[2][0] <= unit[2] && unit[2] < f[2][4];
 }
 
-Knots5 ValuesOf(const LocalKnots& k, const KnotLine& line)
-{
-  return { line[k[0]], line[k[1]], line[k[2]], line[k[3]], line[k[4]] };
-}
-
 // The univariate dual functionals of one direction. Many functions share a local knot vector, so
 // each pair of vectors is computed once.
 class Duals
@@ -66,10 +61,7 @@ public:
     const auto [entry, isNew] = this->Known.emplace((std::uint64_t(fineId) << 32) | coarseId, 0.0);
     if (isNew)
     {
-      const auto next = std::upper_bound(coarse.begin(), coarse.end(), unit);
-      const double a = this->Line[*(next - 1)], b = this->Line[*next];
-      entry->second = DualFunctional(
-        ValuesOf(fine, this->Line), BernsteinOfBSpline(ValuesOf(coarse, this->Line), a, b), a, b);
+      entry->second = DualOf(fine, coarse, unit, this->Line);
     }
     return entry->second;
   }

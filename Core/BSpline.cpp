@@ -6,7 +6,8 @@ namespace trivariate
 {
 namespace
 {
-// Index of the non-empty span [t_k, t_k+1) that holds x, right-continuous, closed at t4; -1 outside.
+// Index of the non-empty span [t_k, t_k+1) that holds x, right-continuous, closed at t4; -1
+// outside.
 int FindSpan(const Knots5& t, double x)
 {
   if (!(x >= t[0] && x <= t[4]))
@@ -28,10 +29,12 @@ double Ratio(double numerator, double denominator)
 {
   return denominator > 0.0 ? numerator / denominator : 0.0;
 }
+}
 
-// Polar form (blossom) of the piece of N[t] on span k, at the three arguments x. De Boor's recursion
-// with another argument at each degree gives the piece's blossom instead of its value.
-double PolarForm(const Knots5& t, int k, double x1, double x2, double x3)
+//------------------------------------------------------------------------------
+// De Boor's recursion with another argument at each degree gives the piece's blossom, not its
+// value.
+double Blossom(const Knots5& t, int k, double x1, double x2, double x3)
 {
   const double x[3] = { x1, x2, x3 };
   double n[4] = { 0.0, 0.0, 0.0, 0.0 };
@@ -41,11 +44,10 @@ double PolarForm(const Knots5& t, int k, double x1, double x2, double x3)
     for (int i = 0; i + degree < 4; ++i)
     {
       n[i] = n[i] * Ratio(x[degree - 1] - t[i], t[i + degree] - t[i]) +
-        n[i + 1] * Ratio(t[i + degree + 1] - x[degree - 1], t[i + degree + 1] - t[i + 1]);
+             n[i + 1] * Ratio(t[i + degree + 1] - x[degree - 1], t[i + degree + 1] - t[i + 1]);
     }
   }
   return n[0];
-}
 }
 
 //------------------------------------------------------------------------------
@@ -76,8 +78,8 @@ std::array<double, 4> BernsteinOfBSpline(const Knots5& t, double a, double b)
   {
     return { 0.0, 0.0, 0.0, 0.0 };
   }
-  return { PolarForm(t, k, a, a, a), PolarForm(t, k, a, a, b), PolarForm(t, k, a, b, b),
-    PolarForm(t, k, b, b, b) };
+  return { Blossom(t, k, a, a, a), Blossom(t, k, a, a, b), Blossom(t, k, a, b, b),
+    Blossom(t, k, b, b, b) };
 }
 
 //------------------------------------------------------------------------------

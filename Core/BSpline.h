@@ -33,6 +33,12 @@ Jet EvaluateBSpline(const Knots5& t, double x);
  */
 std::array<double, 4> BernsteinOfBSpline(const Knots5& t, double a, double b);
 
+/**
+ * The blossom (polar form) of the cubic polynomial that N[t] is on its non-empty span [t_k, t_k+1]:
+ * the symmetric function, linear in each argument, that is the polynomial when all three are equal.
+ */
+double Blossom(const Knots5& t, int k, double x1, double x2, double x3);
+
 /// Knot insertion: N[t] = first * N[t without t4, with x] + second * N[t without t0, with x].
 struct KnotInsertion
 {

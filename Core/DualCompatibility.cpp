@@ -11,27 +11,9 @@ namespace trivariate
 {
 namespace
 {
-bool SupportsMeet(const LocalKnots& a, const LocalKnots& b)
+Knots5 ValuesOf(const LocalKnots& k, const KnotLine& line)
 {
-  return a[0] < b[4] && b[0] < a[4];
-}
-
-// Whether b starts at a knot of a and agrees with a from there on.
-bool Continues(const LocalKnots& a, const LocalKnots& b)
-{
-  for (int shift = 0; shift < 4; ++shift)
-  {
-    int k = 0;
-    while (k + shift < 5 && a[k + shift] == b[k])
-    {
-      ++k;
-    }
-    if (k + shift == 5)
-    {
-      return true;
-    }
-  }
-  return false;
+  return { line[k[0]], line[k[1]], line[k[2]], line[k[3]], line[k[4]] };
 }
 
 void Print(std::ostream& out, const BlendingFunction& f)
@@ -49,13 +31,18 @@ void Print(std::ostream& out, const BlendingFunction& f)
 }
 
 //------------------------------------------------------------------------------
-bool Overlap(const LocalKnots& a, const LocalKnots& b)
+double DualOf(const LocalKnots& a, const LocalKnots& b, std::int32_t unit, const KnotLine& line)
 {
-  if (!SupportsMeet(a, b))
+  if (a == b)
   {
-    return true;
+    return 1.0;
   }
-  return Continues(a, b) || Continues(b, a);
+  int span = 3;
+  while (b[span] > unit)
+  {
+    --span;
+  }
+  return Blossom(ValuesOf(b, line), span, line[a[1]], line[a[2]], line[a[3]]);
 }
 
 //------------------------------------------------------------------------------

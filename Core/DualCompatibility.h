@@ -18,8 +18,42 @@
 
 namespace trivariate
 {
+/// Whether the supports have an interval in common.
+inline bool SupportsMeet(const LocalKnots& a, const LocalKnots& b)
+{
+  return a[0] < b[4] && b[0] < a[4];
+}
+
+/// Whether b starts at one of a's first four knots and agrees with a from there on.
+inline bool Continues(const LocalKnots& a, const LocalKnots& b)
+{
+  for (int shift = 0; shift < 4; ++shift)
+  {
+    int k = 0;
+    while (k + shift < 5 && a[k + shift] == b[k])
+    {
+      ++k;
+    }
+    if (k + shift == 5)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// Whether both vectors are runs of consecutive knots (repeated ones counted) of one knot vector.
-bool Overlap(const LocalKnots& a, const LocalKnots& b);
+inline bool Overlap(const LocalKnots& a, const LocalKnots& b)
+{
+  return !SupportsMeet(a, b) || Continues(a, b) || Continues(b, a);
+}
+
+/**
+ * The univariate dual functional of N[a], applied to the polynomial that N[b] is on the unit
+ * interval [unit, unit + 1] of the knot line, which must lie in both supports. One if a and b are
+ * equal; zero, to rounding, if they overlap and differ.
+ */
+double DualOf(const LocalKnots& a, const LocalKnots& b, std::int32_t unit, const KnotLine& line);
 
 /// Whether the pair is dual-compatible.
 bool DualCompatible(const BlendingFunction& f, const BlendingFunction& g);
