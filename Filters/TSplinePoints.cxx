@@ -39,13 +39,13 @@ Lattice AlignedLattice(const InverseMap& map, const BezierMesh& mesh, vtkImageDa
   }
   const InverseJacobian inverse(map.Matrix().data());
   const int* extent = image->GetExtent();
-  double corner[3];
-  image->TransformIndexToPhysicalPoint(extent[0], extent[2], extent[4], corner);
+  double origin[3]; // of the whole image, so that a piece of it gets the same numbers
+  image->TransformIndexToPhysicalPoint(0, 0, 0, origin);
   for (int a = 0; a < 3; ++a)
   {
-    corner[a] -= map.Offset()[a];
+    origin[a] -= map.Offset()[a];
   }
-  const std::array<double, 3> start = inverse.Step(corner);
+  const std::array<double, 3> start = inverse.Step(origin);
   Lattice lattice;
   for (int a = 0; a < 3; ++a)
   {
@@ -55,19 +55,20 @@ Lattice AlignedLattice(const InverseMap& map, const BezierMesh& mesh, vtkImageDa
       axis[b] = image->GetDirectionMatrix()->GetElement(b, a) * image->GetSpacing()[a];
     }
     const std::array<double, 3> step = inverse.Step(axis);
-    const int count = image->GetDimensions()[a];
+    const int low = extent[2 * a], high = extent[2 * a + 1];
     for (int b = 0; b < 3; ++b)
     {
       const KnotLine& line = mesh.KnotLines()[b];
       const double tolerance = 1e-10 * (line.back() - line.front());
-      if (b == a ? !(step[a] > 0.0) : std::abs(step[b] * (count - 1)) > tolerance)
+      if (b == a ? !(step[a] > 0.0)
+                 : std::abs(step[b] * std::max(std::abs(low), std::abs(high))) > tolerance)
       {
         return {};
       }
     }
     const KnotLine& line = mesh.KnotLines()[a];
     const double tolerance = 1e-10 * (line.back() - line.front());
-    for (int i = 0; i < count; ++i)
+    for (int i = low; i <= high; ++i)
     {
       // A point on the boundary must not fall out of the domain by rounding.
       const double u = start[a] + i * step[a];
