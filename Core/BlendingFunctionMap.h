@@ -6,8 +6,8 @@
 
 #include "TSpline.h"
 
-#include <cstring>
-#include <unordered_map>
+#include <algorithm>
+#include <vector>
 
 namespace trivariate
 {
@@ -30,36 +30,93 @@ struct LocalKnotsHash
   std::size_t operator()(const LocalKnots& k) const { return HashKnots(k); }
 };
 
+/// Open addressing with linear probing; an erased entry leaves a tombstone until the table grows.
 class BlendingFunctionMap
 {
 public:
-  /// The id stored for f, after storing `id` if there was none; and whether it was stored.
+  /// The id stored for f, after storing `id` (>= 0) if there was none; and whether it was stored.
   std::pair<Index, bool> Insert(const BlendingFunction& f, Index id)
   {
-    const auto result = this->Ids.emplace(f, id);
-    return { result.first->second, result.second };
+    if (2 * (this->Used + 1) > this->Slots.size())
+    {
+      this->Grow(2 * this->Slots.size());
+    }
+    Slot& slot = this->Slots[this->Locate(f)];
+    if (slot.Id >= 0)
+    {
+      return { slot.Id, false };
+    }
+    slot = { f, id };
+    ++this->Used;
+    return { id, true };
   }
 
   /// The id stored for f, or -1.
   Index Find(const BlendingFunction& f) const
   {
-    const auto found = this->Ids.find(f);
-    return found == this->Ids.end() ? -1 : found->second;
+    return std::max<Index>(-1, this->Slots[this->Locate(f)].Id);
   }
 
-  void Erase(const BlendingFunction& f) { this->Ids.erase(f); }
+  void Erase(const BlendingFunction& f)
+  {
+    Slot& slot = this->Slots[this->Locate(f)];
+    if (slot.Id >= 0)
+    {
+      slot.Id = Erased;
+    }
+  }
 
-  void Reserve(std::size_t n) { this->Ids.reserve(n); }
+  void Reserve(std::size_t n)
+  {
+    std::size_t size = this->Slots.size();
+    while (size < 2 * (n + 1))
+    {
+      size *= 2;
+    }
+    if (size > this->Slots.size())
+    {
+      this->Grow(size);
+    }
+  }
 
 private:
-  struct Hash
+  static constexpr Index Empty = -1, Erased = -2;
+  struct Slot
   {
-    std::size_t operator()(const BlendingFunction& f) const
-    {
-      return HashKnots(f[0]) * 31 + HashKnots(f[1]) * 17 + HashKnots(f[2]);
-    }
+    BlendingFunction Function{};
+    Index Id = Empty;
   };
-  std::unordered_map<BlendingFunction, Index, Hash> Ids;
+
+  // The slot of f, or the empty slot where it belongs.
+  std::size_t Locate(const BlendingFunction& f) const
+  {
+    const std::size_t mask = this->Slots.size() - 1;
+    std::size_t at = (HashKnots(f[0]) * 31 + HashKnots(f[1]) * 17 + HashKnots(f[2])) & mask;
+    while (
+      this->Slots[at].Id == Erased || (this->Slots[at].Id >= 0 && this->Slots[at].Function != f))
+    {
+      at = (at + 1) & mask;
+    }
+    return at;
+  }
+
+  void Grow(std::size_t size)
+  {
+    std::vector<Slot> old(size);
+    old.swap(this->Slots);
+    this->Used = 0;
+    for (const Slot& slot : old)
+    {
+      if (slot.Id >= 0)
+      {
+        this->Slots[this->Locate(slot.Function)] = slot;
+        ++this->Used;
+      }
+    }
+  }
+
+  std::vector<Slot> Slots = std::vector<Slot>(64);
+  std::size_t Used = 0; // with the tombstones
 };
 }
 

@@ -20,9 +20,9 @@ namespace
 // Between refinements the system is only solved as far as the next refinement can tell; the last
 // solve goes on until the error stands still (measured on the volumes in Documentation/Results.md).
 constexpr double RoundTolerance = 1e-2;
-constexpr int RoundIterations = 60;
+constexpr int RoundIterations = 20;
 constexpr double FinalTolerance = 1e-4;
-constexpr int FinalIterations = 100;
+constexpr int FinalIterations = 40;
 
 // The smallest root mean square, as a share of the range, that rounding lets the fit tell from
 // zero.
@@ -143,21 +143,32 @@ public:
     {
       rule = MakeAnalysisSuitableRule(spline);
     }
+    this->System.Update(spline);
+    if (!rule && !this->Samples.Mask)
+    {
+      this->SolveTensorProduct();
+      this->Measure(true);
+      return std::move(this->Result);
+    }
+    this->SolveRoot();
     while (true)
     {
-      const bool isRoot = spline.Size() == this->RootSize;
-      this->System.Update(spline);
-      this->Solve(RoundTolerance, isRoot ? FinalIterations : RoundIterations);
-      this->Measure(false);
-      if (this->IsGoodEnough() || !rule || !this->RefineOnce(rule))
+      const bool isGood = this->IsGoodEnough();
+      if (isGood || !this->RefineOnce(rule))
       {
-        break;
+        this->Solve(FinalTolerance, FinalIterations);
+        this->Result.Rounds.pop_back();
+        this->Measure(true);
+        // The last solve lowers the mean square, but it can raise the largest error again.
+        if (!isGood || this->IsGoodEnough() || !this->RefineOnce(rule))
+        {
+          return std::move(this->Result);
+        }
       }
+      this->System.Update(spline);
+      this->Solve(RoundTolerance, RoundIterations);
+      this->Measure(false);
     }
-    this->Solve(FinalTolerance, FinalIterations);
-    this->Result.Rounds.pop_back();
-    this->Measure(true);
-    return std::move(this->Result);
   }
 
 private:
@@ -202,6 +213,36 @@ private:
       d[i] = spline.Weights[i] * spline.ControlPoint(i)[3 + c];
     }
     return d;
+  }
+
+  // Without a mask the normal equations of a tensor product are a tensor product too.
+  void SolveTensorProduct()
+  {
+    for (int c = 0; c < this->Samples.Components; ++c)
+    {
+      const std::vector<double> d =
+        SolveUniform(this->Grid, this->System.SampleMoments(c), this->Run);
+      for (std::size_t i = 0; i < d.size(); ++i)
+      {
+        this->Result.Spline.ControlPoint(i)[3 + c] = d[i];
+      }
+    }
+    this->Lap("solve");
+  }
+
+  // The root's functions alone can be all that is needed, for a polynomial or a constant. So solves
+  // go on, each correcting the one before, as long as they bring much.
+  void SolveRoot()
+  {
+    double before = 1.0, now = 1.0;
+    do
+    {
+      this->Result.Rounds.clear();
+      this->Solve(FinalTolerance, FinalIterations);
+      this->Measure(false);
+      before = now;
+      now = this->Result.Rounds.back().Rms;
+    } while (now > RmsFloor && now < 0.1 * before);
   }
 
   // Corrects the control points by what the normal equations make of the residual.

@@ -170,18 +170,17 @@ GramMatrix::GramMatrix(const TSpline& spline, const FunctionTable& table, const 
 {
   const Index n = spline.Size();
   std::array<std::vector<float>, 3> gram;
+  std::array<Index, 3> factors;
   for (int a = 0; a < 3; ++a)
   {
     gram[a] = UnivariateGram(table.AllFactors(a), execution);
+    factors[a] = static_cast<Index>(table.AllFactors(a).size());
   }
-  const auto separable = [&gram, &table](Index i, Index j)
+  const auto separable = [&gram, &factors, &table](Index i, Index j)
   {
-    double product = 1.0;
-    for (int a = 0; a < 3; ++a)
-    {
-      product *= gram[a][table.Id(i, a) * table.AllFactors(a).size() + table.Id(j, a)];
-    }
-    return product;
+    return double(gram[0][table.Id(i, 0) * factors[0] + table.Id(j, 0)]) *
+           gram[1][table.Id(i, 1) * factors[1] + table.Id(j, 1)] *
+           gram[2][table.Id(i, 2) * factors[2] + table.Id(j, 2)];
   };
   const auto masked = [&separable, &table, &mask](Index i, Index j)
   {
@@ -190,51 +189,58 @@ GramMatrix::GramMatrix(const TSpline& spline, const FunctionTable& table, const 
     const Index counted = all > 0 ? CountedVoxels(mask, box) : 0;
     return counted == 0 ? 0.0 : counted == all ? separable(i, j) : MaskedDot(mask, table, i, j);
   };
+  const auto entry = [&separable, &masked, &mask](Index i, Index j)
+  { return mask.Values ? masked(i, j) : separable(i, j); };
 
   this->Diagonal.resize(n);
-  const SupportTree tree(spline.Functions);
+  this->Scale.resize(n);
   this->RowBegin.assign(n + 1, 0);
-  execution.ParallelFor(n,
-    [&](Index begin, Index end)
+  const SupportTree tree(spline.Functions);
+  const Index blocks = (n + BlockSize - 1) / BlockSize;
+  std::vector<std::vector<std::int32_t>> columns(blocks);
+  execution.ParallelFor(blocks,
+    [&](Index firstBlock, Index endBlock)
     {
-      for (Index i = begin; i < end; ++i)
+      for (Index block = firstBlock; block < endBlock; ++block)
       {
-        this->Diagonal[i] = mask.Values ? masked(i, i) : separable(i, i);
-        Index count = 0;
-        tree.Query(SupportOf(spline.Functions[i]), [&count](Index) { ++count; });
-        this->RowBegin[i + 1] = count;
+        for (Index i = block * BlockSize; i < std::min(n, (block + 1) * BlockSize); ++i)
+        {
+          this->Diagonal[i] = entry(i, i);
+          this->Scale[i] = this->Diagonal[i] > 0.0 ? 1.0 / std::sqrt(this->Diagonal[i]) : 0.0;
+          const std::size_t before = columns[block].size();
+          tree.Query(SupportOf(spline.Functions[i]),
+            [&columns, block](Index j) { columns[block].push_back(static_cast<std::int32_t>(j)); });
+          this->RowBegin[i + 1] = static_cast<Index>(columns[block].size() - before);
+        }
       }
     });
-  for (Index i = 0; i < n; ++i)
-  {
-    this->RowBegin[i + 1] += this->RowBegin[i];
-  }
+  std::partial_sum(this->RowBegin.begin(), this->RowBegin.end(), this->RowBegin.begin());
+  execution.Check(0.0);
+
   this->BlockBegin.resize(n);
   this->BlockEnd.resize(n);
   this->Columns.resize(this->RowBegin[n]);
   this->Values.resize(this->RowBegin[n]);
-  execution.ParallelFor(n,
-    [&](Index begin, Index end)
+  execution.ParallelFor(blocks,
+    [&](Index firstBlock, Index endBlock)
     {
-      for (Index i = begin; i < end; ++i)
+      for (Index block = firstBlock; block < endBlock; ++block)
       {
-        Index at = this->RowBegin[i];
-        tree.Query(SupportOf(spline.Functions[i]),
-          [&](Index j)
+        const Index begin = block * BlockSize, end = std::min(n, begin + BlockSize);
+        const auto all = this->Columns.begin();
+        std::copy(columns[block].begin(), columns[block].end(), all + this->RowBegin[begin]);
+        std::vector<std::int32_t>().swap(columns[block]);
+        for (Index i = begin; i < end; ++i)
+        {
+          const auto row = all + this->RowBegin[i], rowEnd = all + this->RowBegin[i + 1];
+          for (auto column = row; column != rowEnd; ++column)
           {
-            const double scale = this->Diagonal[i] * this->Diagonal[j];
-            this->Columns[at] = static_cast<std::int32_t>(j);
-            this->Values[at] =
-              scale > 0.0 ? static_cast<float>(
-                              (mask.Values ? masked(i, j) : separable(i, j)) / std::sqrt(scale))
-                          : 0.0f;
-            ++at;
-          });
-        const auto first = this->Columns.begin();
-        const auto rowBegin = first + this->RowBegin[i], rowEnd = first + this->RowBegin[i + 1];
-        const Index block = i / BlockSize * BlockSize;
-        this->BlockBegin[i] = std::lower_bound(rowBegin, rowEnd, block) - first;
-        this->BlockEnd[i] = std::lower_bound(rowBegin, rowEnd, block + BlockSize) - first;
+            this->Values[column - all] =
+              static_cast<float>(entry(i, *column) * this->Scale[i] * this->Scale[*column]);
+          }
+          this->BlockBegin[i] = std::lower_bound(row, rowEnd, begin) - all;
+          this->BlockEnd[i] = std::lower_bound(row, rowEnd, end) - all;
+        }
       }
     });
 }
@@ -284,7 +290,7 @@ int GramMatrix::Solve(const std::vector<double>& b, double tolerance, int maximu
   std::vector<double> r(n), z(n), p(n, 0.0), ap(n);
   for (Index i = 0; i < n; ++i)
   {
-    r[i] = this->Diagonal[i] > 0.0 ? b[i] / std::sqrt(this->Diagonal[i]) : 0.0;
+    r[i] = b[i] * this->Scale[i];
   }
   double alpha = 0.0, goal = 0.0, rzBefore = 0.0;
   int iteration = 0;
@@ -335,7 +341,7 @@ int GramMatrix::Solve(const std::vector<double>& b, double tolerance, int maximu
   }
   for (Index i = 0; i < n; ++i)
   {
-    x[i] = this->Diagonal[i] > 0.0 ? x[i] / std::sqrt(this->Diagonal[i]) : 0.0;
+    x[i] *= this->Scale[i];
   }
   return iteration;
 }

@@ -56,6 +56,7 @@ private:
   std::vector<std::int32_t> Columns;
   std::vector<float> Values; // scaled: A_ij / sqrt(A_ii A_jj)
   std::vector<double> Diagonal;
+  std::vector<double> Scale; // 1 / sqrt(A_ii), 0 for functions without a voxel
 };
 }
 

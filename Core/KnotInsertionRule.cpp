@@ -23,10 +23,13 @@ namespace
 class FunctionPool
 {
 public:
-  FunctionPool(int components)
+  FunctionPool(int components, Index expected)
     : Stride(components + 1)
     , Row(components + 1)
   {
+    this->Ids.Reserve(expected);
+    this->Functions.reserve(expected);
+    this->Rows.reserve(expected * this->Stride);
   }
 
   // Adds factor * row to the function; returns its id and whether it is new.
@@ -100,7 +103,7 @@ public:
     {
       this->Faces.Insert(spline.Functions[mark.Function], mark.Direction, mark.Knot);
     }
-    FunctionPool pool(spline.Components);
+    FunctionPool pool(spline.Components, 2 * spline.Size());
     std::vector<double> row(pool.Stride);
     for (Index i = 0; i < spline.Size(); ++i)
     {

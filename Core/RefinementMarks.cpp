@@ -10,10 +10,14 @@ namespace trivariate
 {
 namespace
 {
-// Growth of the spline in one round. Small steps choose better, large ones are faster; a small
-// spline can afford small steps.
-constexpr double Growth = 0.25;
-constexpr Index SmallestStep = 64;
+// How many functions one round may add. Small steps choose better, large ones are faster; a small
+// spline is cheap to solve and decides where all else goes, so its steps are small.
+Index StepOf(Index size)
+{
+  constexpr double sizeOfWholeStep = 12000.0;
+  const double growth = std::clamp(size / sizeOfWholeStep, 0.05, 0.5);
+  return std::max<Index>(32, static_cast<Index>(growth * size));
+}
 
 // The best gains first, at most `count` of them; equal gains in the order of the functions.
 void KeepLargest(std::vector<SplitGain>& gains, Index count)
@@ -59,12 +63,12 @@ bool RefinementMarks::Refine(std::vector<SplitGain> gains, Index maximum, TSplin
   std::unique_ptr<RefinementRule>& rule)
 {
   const Index size = spline.Size();
-  const Index step = std::max(SmallestStep, static_cast<Index>(Growth * size));
+  const Index step = StepOf(size);
   const Index limit = std::min(maximum, size + step + step / 4);
   const Index wanted = std::min(maximum, size + step) - size;
-  if (wanted <= 0)
+  if (maximum - size <= maximum / 200)
   {
-    return false;
+    return false; // near enough: a round for the last few functions is not worth its time
   }
   // Up to four functions in line ask for the same face.
   KeepLargest(gains, 4 * wanted);
