@@ -123,7 +123,7 @@ public:
     const BisectionMesh::Node coarseNodes = this->Mesh.CountNodes();
     for (const RefinementMark& mark : marks)
     {
-      this->Meet(spline.Functions[mark.Function], mark.Direction, mark.Knot);
+      this->Bisect(spline.Functions[mark.Function], mark.Direction, mark.Knot, coarseNodes);
     }
     std::vector<Index> changed;
     TSpline refined = this->Carry(spline, changed);
@@ -149,8 +149,10 @@ private:
     }
   }
 
-  // Bisects the cells around the knot on the axis of f until the knot is a face of all of them.
-  void Meet(const BlendingFunction& f, int direction, std::int32_t knot)
+  // Bisects the cells at the axis of f that the knot lies inside of, unless that has been done
+  // since the mesh had `coarseNodes` nodes.
+  void Bisect(
+    const BlendingFunction& f, int direction, std::int32_t knot, BisectionMesh::Node coarseNodes)
   {
     const int b = (direction + 1) % 3, c = (direction + 2) % 3;
     for (const std::int32_t y : { f[b][2] - 1, f[b][2] })
@@ -161,13 +163,13 @@ private:
         at[direction] = knot;
         at[b] = y;
         at[c] = z;
-        if (!this->Mesh.Inside(at))
+        if (this->Mesh.Inside(at))
         {
-          continue;
-        }
-        while (this->Mesh.Box(at, this->Mesh.Find(at).Level).Low[direction] < knot &&
-               this->Mesh.Bisect(at))
-        {
+          const BisectionMesh::Cell cell = this->Mesh.Find(at);
+          if (cell.Id < coarseNodes && this->Mesh.Box(at, cell.Level).Low[direction] < knot)
+          {
+            this->Mesh.Bisect(at);
+          }
         }
       }
     }

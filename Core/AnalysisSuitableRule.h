@@ -6,10 +6,11 @@
  * All weights are one, any two functions are dual-compatible, and therefore the functions are
  * linearly independent, sum to one and span every tricubic polynomial, and the spaces are nested.
  *
- * A mark (function, direction, knot) is met by bisecting the up to four cells at the function's
- * axis around the knot until the knot lies on their faces. The level of a cell fixes the direction
- * of its next bisection, so up to three in a row may be needed, the closure asks for more around
- * them, and the finest level (cells one index wide) stops them: a mark is met unless it lies there.
+ * A mark (function, direction, knot) bisects the up to four cells at the function's axis that the
+ * knot lies inside of; each cell at most once in a call of Refine, whatever the number of marks.
+ * The level of a cell fixes the direction of its bisection, so a mark may have to be repeated,
+ * twice at the most, until the function at that vertex has the knot. (Bisecting until it has it at
+ * once was measured: a fit needs a tenth more control points for the same error.)
  */
 #ifndef trivariate_AnalysisSuitableRule_h
 #define trivariate_AnalysisSuitableRule_h
