@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 namespace trivariate
@@ -16,16 +17,17 @@ namespace
 // Points whose coefficients are fetched before the first of them is evaluated.
 constexpr Index BlockSize = 32;
 
-void Prefetch(const double* data, Index count)
+// Asks for `count` numbers from data[first] on before they are read, or written.
+template <bool Write>
+void Prefetch(const double* data, Index first, Index count)
 {
 #if defined(__GNUC__)
-  for (Index i = 0; i < count; i += 8)
+  for (Index i = 0; data && i < count + 7; i += 8) // of each cache line at least one
   {
-    __builtin_prefetch(data + i);
+    __builtin_prefetch(data + first + std::min(i, count - 1), Write);
   }
 #else
-  (void)data;
-  (void)count;
+  (void)data, (void)first, (void)count;
 #endif
 }
 
@@ -37,12 +39,85 @@ struct LocatedPoint
   double InverseWidth[3];
 };
 
-// A run of located points, their results to go to the places from First on.
+LocatedPoint Locate(const Evaluator& evaluator, const double* x)
+{
+  LocatedPoint point;
+  const BezierMesh& mesh = evaluator.Mesh();
+  const Index cell = mesh.FindCell(x[0], x[1], x[2]);
+  if (cell < 0)
+  {
+    point.Coefficients = nullptr;
+    return point;
+  }
+  point.Coefficients = evaluator.Coefficients(cell);
+  Prefetch<false>(point.Coefficients, 0, 64 * (evaluator.Components() + evaluator.Rational()));
+  const IndexBox& box = mesh.Box(cell);
+  for (int a = 0; a < 3; ++a)
+  {
+    const KnotLine& line = mesh.KnotLines()[a];
+    const double low = line[box.Low[a]];
+    point.InverseWidth[a] = 1.0 / (line[box.High[a]] - low);
+    point.S[a] = (x[a] - low) * point.InverseWidth[a];
+  }
+  return point;
+}
+
+// Some located points, and the places where their results go.
 struct Block
 {
   std::array<LocatedPoint, BlockSize> Points;
-  Index Size, First;
+  std::array<Index, BlockSize> Places;
+  Index Size;
 };
+
+// A point, and the place where its results go.
+struct Request
+{
+  double X[3];
+  Index Place;
+};
+
+// The points [begin, end), those near each other in space together: by the buckets of a coarse grid
+// over the domain. Empty when neighbours in the list are near each other anyhow.
+std::vector<Request> GroupInSpace(
+  const std::array<KnotLine, 3>& lines, const double* points, Index begin, Index end)
+{
+  constexpr int Buckets = 8; // a direction
+  std::array<double, 3> scale;
+  for (int a = 0; a < 3; ++a)
+  {
+    scale[a] = Buckets / (lines[a].back() - lines[a].front());
+  }
+  std::vector<std::uint16_t> bucket(end - begin);
+  std::vector<Index> next(Buckets * Buckets * Buckets + 1, 0);
+  Index jumps = 0;
+  int previous = 0;
+  for (Index i = begin; i < end; ++i)
+  {
+    int b = 0;
+    for (int a = 2; a >= 0; --a)
+    {
+      const double t = scale[a] * (points[3 * i + a] - lines[a].front());
+      b = b * Buckets + (t > 0.0 ? static_cast<int>(std::min(t, Buckets - 1.0)) : 0);
+    }
+    bucket[i - begin] = static_cast<std::uint16_t>(b);
+    ++next[b + 1];
+    jumps += b != previous;
+    previous = b;
+  }
+  if (jumps < (end - begin) / 8)
+  {
+    return {};
+  }
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<Request> requests(end - begin);
+  for (Index i = begin; i < end; ++i)
+  {
+    const double* x = points + 3 * i;
+    requests[next[bucket[i - begin]]++] = { { x[0], x[1], x[2] }, i };
+  }
+  return requests;
+}
 
 template <int Order>
 TRIVARIATE_INLINE void WriteJet(const double* jet, const EvaluatorOutput& out, Index place)
@@ -101,7 +176,7 @@ TRIVARIATE_INLINE void EvaluateBlockOf(
 {
   for (Index i = 0; i < block.Size; ++i)
   {
-    const Index n = block.First + i;
+    const Index n = block.Places[i];
     const bool inside = EvaluatePoint<Order>(block.Points[i], components, rational, out, n);
     if (!inside)
     {
@@ -182,35 +257,43 @@ Evaluator::Evaluator(const TSpline& spline, const BezierMesh& mesh,
 }
 
 //------------------------------------------------------------------------------
+// Scattered points wait for their cells to come from memory. Where there are many of them for each
+// cell, it pays to bring neighbours together; and their results' places are asked for early.
 void Evaluator::EvaluateRange(
   Index begin, Index end, const double* points, const EvaluatorOutput& output) const
 {
-  const auto& lines = this->Cells->KnotLines();
-  Block block;
-  for (block.First = begin; block.First < end; block.First += block.Size)
+  constexpr Index Stretch = 1 << 20, Many = 1 << 16;
+  for (Index first = begin; first < end; first += Stretch)
   {
-    block.Size = std::min(BlockSize, end - block.First);
-    for (Index i = 0; i < block.Size; ++i)
+    const Index last = std::min(first + Stretch, end);
+    std::vector<Request> requests;
+    if (last - first >= std::max(Many, 2 * this->Cells->Size()))
     {
-      const double* x = points + 3 * (block.First + i);
-      LocatedPoint& point = block.Points[i];
-      const Index cell = this->Cells->FindCell(x[0], x[1], x[2]);
-      if (cell < 0)
-      {
-        point.Coefficients = nullptr;
-        continue;
-      }
-      point.Coefficients = this->Coefficients(cell);
-      Prefetch(point.Coefficients, this->CellStride);
-      const IndexBox& box = this->Cells->Box(cell);
-      for (int a = 0; a < 3; ++a)
-      {
-        const double low = lines[a][box.Low[a]];
-        point.InverseWidth[a] = 1.0 / (lines[a][box.High[a]] - low);
-        point.S[a] = (x[a] - low) * point.InverseWidth[a];
-      }
+      requests = GroupInSpace(this->Cells->KnotLines(), points, first, last);
     }
-    EvaluateBlock(block, this->ComponentCount, this->HasDenominator, output);
+    Block block;
+    for (Index done = first; done < last; done += block.Size)
+    {
+      block.Size = std::min(BlockSize, last - done);
+      for (Index i = 0; i < block.Size; ++i)
+      {
+        Index& place = block.Places[i];
+        place = done + i;
+        const double* x = points + 3 * place;
+        if (!requests.empty())
+        {
+          const Request& request = requests[done - first + i];
+          x = request.X;
+          place = request.Place;
+          const Index c = this->ComponentCount;
+          Prefetch<true>(output.Values, c * place, c);
+          Prefetch<true>(output.Gradients, 3 * c * place, 3 * c);
+          Prefetch<true>(output.Hessians, 6 * c * place, 6 * c);
+        }
+        block.Points[i] = Locate(*this, x);
+      }
+      EvaluateBlock(block, this->ComponentCount, this->HasDenominator, output);
+    }
   }
 }
 
@@ -218,7 +301,7 @@ void Evaluator::EvaluateRange(
 void Evaluator::Evaluate(
   Index n, const double* points, const EvaluatorOutput& output, const Execution& execution) const
 {
-  constexpr Index Batch = 1 << 20; // between two looks at the abort flag
+  constexpr Index Batch = 1 << 22; // between two looks at the abort flag
   for (Index first = 0; first < n; first += Batch)
   {
     execution.Check(static_cast<double>(first) / n);

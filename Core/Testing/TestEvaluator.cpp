@@ -280,6 +280,30 @@ TEST(Evaluator, IsTheSameForAnyThreadsAndAnyCompany)
   EXPECT_TRUE(oneLattice == manyLattice);
 }
 
+// Many points are evaluated in another order than they come in.
+TEST(Evaluator, ManyPointsAreEvaluatedAsFew)
+{
+  std::mt19937 random(12);
+  const TSpline spline = RandomSpline(1, false, random);
+  const BezierMesh mesh(spline);
+  const Evaluator evaluator(spline, mesh, { 3, 4 });
+  const Index n = 100000, few = 1000;
+  std::vector<double> points = RandomPoints(spline, n, random);
+  points[3 * 500] = std::numeric_limits<double>::quiet_NaN();
+  points[3 * 501] = 1e300;
+  points[3 * 502 + 2] = -1e300;
+  Results many(n, 2), pieces(n, 2);
+  evaluator.Evaluate(n, points.data(), many.Output());
+  for (Index i = 0; i < n; i += few)
+  {
+    evaluator.Evaluate(few, &points[3 * i],
+      { &pieces.Values[2 * i], &pieces.Gradients[6 * i], &pieces.Hessians[12 * i],
+        &pieces.Inside[i] });
+  }
+  EXPECT_TRUE(many == pieces);
+  EXPECT_EQ(std::count(many.Inside.begin(), many.Inside.end(), 1), n - 3);
+}
+
 TEST(Evaluator, OutsideIsZero)
 {
   std::mt19937 random(2);
