@@ -3,6 +3,7 @@
 #include "Fit.h"
 
 #include "GridFitSystem.h"
+#include "LinearIndependence.h"
 #include "RefinementMarks.h"
 #include "RefinementRule.h"
 #include "UniformFit.h"
@@ -144,7 +145,7 @@ public:
       rule = MakeAnalysisSuitableRule(spline);
     }
     this->System.Update(spline);
-    if (!rule && !this->Samples.Mask)
+    if (!rule && !this->Samples.Mask && HasSmallInverse(this->Grid))
     {
       this->SolveTensorProduct();
       this->Measure(true);
@@ -312,6 +313,10 @@ private:
   // False when nothing could be refined.
   bool RefineOnce(std::unique_ptr<RefinementRule>& rule)
   {
+    if (!rule)
+    {
+      return false;
+    }
     std::vector<SplitGain> gains;
     for (int c = 0; c < this->Samples.Components; ++c)
     {

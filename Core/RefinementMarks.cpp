@@ -15,7 +15,7 @@ namespace
 Index StepOf(Index size)
 {
   constexpr double sizeOfWholeStep = 12000.0;
-  const double growth = std::clamp(size / sizeOfWholeStep, 0.05, 0.5);
+  const double growth = std::clamp(size / sizeOfWholeStep, 0.15, 0.5);
   return std::max<Index>(32, static_cast<Index>(growth * size));
 }
 
