@@ -26,9 +26,6 @@
 
 namespace trivariate
 {
-/// A vertex of the index grid, or the unit cell of which it is the low corner.
-using GridIndex = std::array<std::int32_t, 3>;
-
 /**
  * How far around a cell the mesh must be as fine as the cell before that is halved.
  *

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DependenceRows.h"
 
-#include "BisectionMesh.h"
 #include "BlendingFunctionMap.h"
 #include "DualCompatibility.h"
 #include "SupportTree.h"
@@ -113,7 +112,8 @@ DependenceRows MakeValueRows(const TSpline& spline, const std::vector<Index>& fu
       {
         const KnotLine& line = spline.KnotLines[a];
         const double low = line[place[a]], high = line[place[a] + 1];
-        value *= EvaluateBSpline(spline.LocalKnotValues(j, a), low + inUnit[a] * (high - low))[0];
+        const double x = low + inUnit[a] * (high - low);
+        value *= BlossomAround(spline.Functions[j][a], place[a], line, x, x, x);
       }
       return value;
     });

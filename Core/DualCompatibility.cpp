@@ -11,11 +11,6 @@ namespace trivariate
 {
 namespace
 {
-Knots5 ValuesOf(const LocalKnots& k, const KnotLine& line)
-{
-  return { line[k[0]], line[k[1]], line[k[2]], line[k[3]], line[k[4]] };
-}
-
 void Print(std::ostream& out, const BlendingFunction& f)
 {
   for (int a = 0; a < 3; ++a)
@@ -31,18 +26,21 @@ void Print(std::ostream& out, const BlendingFunction& f)
 }
 
 //------------------------------------------------------------------------------
-double DualOf(const LocalKnots& a, const LocalKnots& b, std::int32_t unit, const KnotLine& line)
+double BlossomAround(
+  const LocalKnots& k, std::int32_t unit, const KnotLine& line, double x1, double x2, double x3)
 {
-  if (a == b)
-  {
-    return 1.0;
-  }
   int span = 3;
-  while (b[span] > unit)
+  while (k[span] > unit)
   {
     --span;
   }
-  return Blossom(ValuesOf(b, line), span, line[a[1]], line[a[2]], line[a[3]]);
+  return Blossom({ line[k[0]], line[k[1]], line[k[2]], line[k[3]], line[k[4]] }, span, x1, x2, x3);
+}
+
+//------------------------------------------------------------------------------
+double DualOf(const LocalKnots& a, const LocalKnots& b, std::int32_t unit, const KnotLine& line)
+{
+  return a == b ? 1.0 : BlossomAround(b, unit, line, line[a[1]], line[a[2]], line[a[3]]);
 }
 
 //------------------------------------------------------------------------------

@@ -48,6 +48,11 @@ inline bool Overlap(const LocalKnots& a, const LocalKnots& b)
   return !SupportsMeet(a, b) || Continues(a, b) || Continues(b, a);
 }
 
+/// The blossom of the polynomial that N[k] is on the unit interval [unit, unit + 1] of the knot
+/// line, which must lie in its support.
+double BlossomAround(
+  const LocalKnots& k, std::int32_t unit, const KnotLine& line, double x1, double x2, double x3);
+
 /**
  * The univariate dual functional of N[a], applied to the polynomial that N[b] is on the unit
  * interval [unit, unit + 1] of the knot line, which must lie in both supports. One if a and b are

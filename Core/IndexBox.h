@@ -8,10 +8,13 @@
 
 namespace trivariate
 {
+/// A vertex of the grid of knot indices, or the unit cell of which it is the low corner.
+using GridIndex = std::array<std::int32_t, 3>;
+
 /// From knot Low[a] to knot High[a] of the knot line of each direction a; as integers half open.
 struct IndexBox
 {
-  std::array<std::int32_t, 3> Low, High;
+  GridIndex Low, High;
 
   bool Overlaps(const IndexBox& other) const
   {

@@ -50,8 +50,9 @@ public:
   virtual ~RefinementRule() = default;
 
   /**
-   * Refines `spline` so that (at least) the marks are met, and transfers weights and all
-   * components of the control points: the refined spline equals the given one to rounding.
+   * Refines `spline` towards (at least) the marks, and transfers weights and all components of the
+   * control points: the refined spline equals the given one to rounding. The compact rule meets a
+   * mark at once, the analysis-suitable one when it has been repeated at most twice.
    * `spline` must be the one this object was made for or last returned.
    */
   virtual void Refine(TSpline& spline, const std::vector<RefinementMark>& marks) = 0;
