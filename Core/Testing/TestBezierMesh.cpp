@@ -16,10 +16,11 @@ using namespace trivariate;
 
 namespace
 {
-TSpline RandomCompact(std::mt19937& random, int rounds)
+TSpline RandomRefined(std::mt19937& random, int rounds, bool analysisSuitable = false)
 {
   TSpline spline = RandomTensorProduct({ 2, 3, 2 }, { 3, 2, 3 }, random);
-  const auto rule = MakeKnotInsertionRule(spline);
+  const auto rule =
+    analysisSuitable ? MakeAnalysisSuitableRule(spline) : MakeKnotInsertionRule(spline);
   for (int round = 0; round < rounds; ++round)
   {
     rule->Refine(spline, RandomMarks(spline, 6, random));
@@ -234,7 +235,7 @@ TEST(BezierMesh, CellsAreTheRegionsBetweenTheFaces)
   for (unsigned seed = 0; seed < 20; ++seed)
   {
     std::mt19937 random(seed);
-    const TSpline spline = RandomCompact(random, 3 + seed % 4);
+    const TSpline spline = RandomRefined(random, 3 + seed % 4, seed % 2 == 0);
     const BezierMesh mesh(spline);
     ExpectPartition(spline, mesh, random);
     EXPECT_EQ(mesh.Size(), UnitGrid(spline).CountRegions()) << "seed " << seed;
@@ -329,7 +330,7 @@ TEST(BezierMesh, NoFunctionsNoCells)
 TEST(BezierMesh, StopsWhenAsked)
 {
   std::mt19937 random(1);
-  const TSpline spline = RandomCompact(random, 3);
+  const TSpline spline = RandomRefined(random, 3);
   int looks = 0;
   Execution execution;
   execution.Continue = [&looks](double) { return ++looks < 4; };
@@ -341,7 +342,7 @@ TEST(BezierExtraction, ReproducesTheSpline)
   for (unsigned seed = 0; seed < 12; ++seed)
   {
     std::mt19937 random(seed);
-    TSpline spline = RandomCompact(random, 6);
+    TSpline spline = RandomRefined(random, 6);
     for (double& weight : spline.Weights)
     {
       weight *= seed % 2 ? Random(random, 0.2, 5.0) : 1.0;
@@ -378,7 +379,7 @@ TEST(BezierExtraction, DenominatorOfRefinedSplinesIsOne)
   for (unsigned seed = 0; seed < 10; ++seed)
   {
     std::mt19937 random(seed);
-    const TSpline spline = RandomCompact(random, 8);
+    const TSpline spline = RandomRefined(random, 8);
     for (const double d : ExtractBezier(spline, BezierMesh(spline), { Denominator }))
     {
       ASSERT_NEAR(d, 1.0, 1e-12);
@@ -389,7 +390,7 @@ TEST(BezierExtraction, DenominatorOfRefinedSplinesIsOne)
 TEST(BezierExtraction, IsTheSameForAnyThreads)
 {
   std::mt19937 random(7);
-  const TSpline spline = RandomCompact(random, 8);
+  const TSpline spline = RandomRefined(random, 8);
   const BezierMesh mesh(spline);
   const BezierMesh threaded(spline, ThreadedExecution(3));
   ASSERT_EQ(mesh.Size(), threaded.Size());
