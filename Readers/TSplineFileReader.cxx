@@ -44,10 +44,11 @@ std::uint64_t RegularFileSize(const std::string& path)
 //------------------------------------------------------------------------------
 Handle OpenFile(const std::string& path)
 {
+  const std::uint64_t size = RegularFileSize(path);
   std::ifstream stream(path, std::ios::binary);
-  const std::string fault = StructureFault(RegularFileSize(path),
-    [&stream](std::uint64_t offset, char* bytes, std::size_t count)
-    { stream.seekg(static_cast<std::streamoff>(offset)).read(bytes, count); });
+  const std::string fault =
+    StructureFault(size, [&stream](std::uint64_t offset, char* bytes, std::size_t count)
+      { stream.seekg(static_cast<std::streamoff>(offset)).read(bytes, count); });
   if (!stream || !fault.empty())
   {
     throw std::runtime_error(stream ? fault : "It cannot be opened for reading.");

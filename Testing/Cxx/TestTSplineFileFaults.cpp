@@ -6,6 +6,7 @@
 #include "vtkCallbackCommand.h"
 
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include <csignal>
@@ -140,11 +141,14 @@ TEST_F(TSplineFileFaults, IsNotReadFromWhatIsNone)
   EXPECT_NE(this->ReadError().find("No such file"), std::string::npos);
   EXPECT_NE(this->ReadError(".").find("not a regular file"), std::string::npos);
   EXPECT_NE(this->ReadError("/dev/zero").find("not a regular file"), std::string::npos);
+  ASSERT_EQ(mkfifo("pipe", 0600), 0); // opening it would wait for ever
+  EXPECT_NE(this->ReadError("pipe").find("not a regular file"), std::string::npos);
+  EXPECT_NE(this->Write(RandomModel(1), "pipe").find("not a regular file"), std::string::npos);
   SetBytes("empty", "");
   EXPECT_NE(this->ReadError("empty").find("only 0 bytes"), std::string::npos);
   SetBytes("text", std::string(1000, 'x'));
   EXPECT_NE(this->ReadError("text").find("no HDF5 file"), std::string::npos);
-  for (const char* name : { "none", ".", "empty", "text" })
+  for (const char* name : { "none", ".", "pipe", "empty", "text" })
   {
     EXPECT_EQ(vtkTSplineReader::CanReadFile(name), 0) << name;
   }
