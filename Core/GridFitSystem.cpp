@@ -65,9 +65,9 @@ GridFitSystem::GridFitSystem(
         });
     };
     this->Means.push_back(sum(1) / static_cast<double>(this->CountedVoxels));
-    this->Ranges.push_back(high > low ? high - low : 1.0);
+    this->Ranges.push_back(high > low ? high - low : low != 0.0 ? std::abs(low) : 1.0);
     this->SquaredSums.push_back(sum(2));
-    this->SampleMoments.push_back(TakeMoments(axes, std::move(counted), execution));
+    this->FinestMoments.push_back(TakeMoments(axes, std::move(counted), execution));
   }
 }
 
@@ -142,7 +142,7 @@ Residual GridFitSystem::ComputeResidual(int component, const std::vector<double>
   const auto multiply = [this](const Array3& in, int a)
   { return Apply(this->Grid[a].Gram[this->Work[a]], a, in, this->Run); };
   Array3 residual = multiply(multiply(multiply(coefficients, 0), 1), 2);
-  const Array3& samples = this->MomentsOnWorkLevel(component);
+  const Array3& samples = this->SampleMoments(component);
   double sum = this->SquaredSums[component];
   for (std::size_t i = 0; i < residual.Values.size(); ++i)
   {
@@ -153,16 +153,16 @@ Residual GridFitSystem::ComputeResidual(int component, const std::vector<double>
 }
 
 //------------------------------------------------------------------------------
-const Array3& GridFitSystem::MomentsOnWorkLevel(int component)
+const Array3& GridFitSystem::SampleMoments(int component)
 {
   if (this->Work == this->Finest)
   {
-    return this->SampleMoments[component];
+    return this->FinestMoments[component];
   }
   if (this->WorkMomentsLevel != this->Work)
   {
     this->WorkMoments.clear();
-    for (const Array3& moments : this->SampleMoments)
+    for (const Array3& moments : this->FinestMoments)
     {
       this->WorkMoments.push_back(
         Restrict(this->Grid, moments, this->Finest, this->Work, this->Run));

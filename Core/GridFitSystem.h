@@ -53,11 +53,14 @@ public:
   Index NumberOfVoxels() const { return this->CountedVoxels; }
   double Mean(int component) const { return this->Means[component]; }
 
-  /// Largest minus smallest sample of an attribute, one where they are equal.
+  /// Largest minus smallest sample of an attribute; where they are equal their size, or one.
   double Range(int component) const { return this->Ranges[component]; }
 
   /// The coarsest level of the uniform basis that has all functions and all their splits.
   const Levels& WorkLevel() const { return this->Work; }
+
+  /// Sums over the voxels of an attribute's samples times the functions of WorkLevel().
+  const Array3& SampleMoments(int component);
 
   /// The residual of attribute `component` on WorkLevel().
   Residual ComputeResidual(int component, const std::vector<double>& d);
@@ -73,7 +76,6 @@ public:
   FitError Error(int component, const std::vector<double>& d) const;
 
 private:
-  const Array3& MomentsOnWorkLevel(int component);
   Array3 Reconstruct(const std::vector<double>& d) const;
   double SumOfLayers(const std::function<double(Index begin, Index end)>& term) const;
 
@@ -86,7 +88,7 @@ private:
   VoxelMask Voxels;
   Index CountedVoxels = 0;
   std::vector<double> Means, Ranges, SquaredSums;
-  std::vector<Array3> SampleMoments; // on the finest level, one for each attribute
+  std::vector<Array3> FinestMoments; // of the samples, one for each attribute
   std::vector<Array3> WorkMoments;   // the same on WorkMomentsLevel
   Levels WorkMomentsLevel{ -1, -1, -1 };
   std::vector<LevelFunction> Expansions;

@@ -68,18 +68,21 @@ Axes MakeUniformAxes(const std::array<Index, 3>& samples, Index maximum)
 }
 
 //------------------------------------------------------------------------------
-std::vector<double> FitUniform(
-  const GridSamples& samples, int component, const Axes& axes, const Execution& execution)
+bool HasSmallInverse(const Axes& axes)
 {
-  Array3 values(samples.Size, std::make_shared<ArrayPool>());
-  std::copy_n(samples.Values + component * samples.Count(), samples.Count(), values.Values.begin());
-  // The order of the directions matters for time alone: the fastest shrinks the array first.
+  return std::all_of(
+    axes.begin(), axes.end(), [](const DyadicAxis& axis) { return axis.Functions(0) <= 512; });
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> SolveUniform(
+  const Axes& axes, const Array3& moments, const Execution& execution)
+{
+  Array3 solution = moments.Clone();
   for (int a = 0; a < 3; ++a)
   {
-    execution.Check(0.3 * a);
-    values =
-      Apply(InverseGram(axes[a]), a, Apply(axes[a].Moments, a, values, execution), execution);
+    solution = Apply(InverseGram(axes[a]), a, solution, execution);
   }
-  return { values.Values.begin(), values.Values.end() };
+  return { solution.Values.begin(), solution.Values.end() };
 }
 }
