@@ -190,14 +190,14 @@ public:
     this->Table.Set(this->Grid.Axes[0], box.First[0], box.Last[0], cell);
     for (Index k = box.First[2]; k < box.Last[2]; ++k)
     {
-      const auto w = this->Grid.Axes[2].Bernstein<Order>(k, cell.Low[2], cell.High[2]);
+      const auto w = this->Grid.Axes[2].template Bernstein<Order>(k, cell.Low[2], cell.High[2]);
       for (std::size_t c = 0; c < this->Planes.size(); ++c)
       {
         this->Planes[c].Set(coefficients + 64 * c, w);
       }
       for (Index j = box.First[1]; j < box.Last[1]; ++j)
       {
-        const auto v = this->Grid.Axes[1].Bernstein<Order>(j, cell.Low[1], cell.High[1]);
+        const auto v = this->Grid.Axes[1].template Bernstein<Order>(j, cell.Low[1], cell.High[1]);
         for (std::size_t c = 0; c < this->Planes.size(); ++c)
         {
           this->Rows[c].Set(this->Planes[c], v);

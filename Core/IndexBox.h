@@ -16,11 +16,15 @@ struct IndexBox
 {
   GridIndex Low, High;
 
+  // Without branches: searches ask this of millions.
   bool Overlaps(const IndexBox& other) const
   {
-    return (this->Low[0] < other.High[0]) & (other.Low[0] < this->High[0]) &
-           (this->Low[1] < other.High[1]) & (other.Low[1] < this->High[1]) &
-           (this->Low[2] < other.High[2]) & (other.Low[2] < this->High[2]);
+    int gaps = 0;
+    for (int a = 0; a < 3; ++a)
+    {
+      gaps += (this->Low[a] >= other.High[a]) + (other.Low[a] >= this->High[a]);
+    }
+    return gaps == 0;
   }
 };
 
