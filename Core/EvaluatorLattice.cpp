@@ -7,6 +7,7 @@
 #include "Evaluator.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace trivariate
@@ -24,9 +25,10 @@ public:
     : X(coordinates)
     , Line(line)
   {
-    if (!std::is_sorted(coordinates.begin(), coordinates.end()))
+    if (!std::is_sorted(coordinates.begin(), coordinates.end()) ||
+        std::any_of(coordinates.begin(), coordinates.end(), [](double x) { return std::isnan(x); }))
     {
-      throw std::invalid_argument("The coordinates of a lattice must ascend.");
+      throw std::invalid_argument("The coordinates of a lattice must be numbers that ascend.");
     }
     for (const double knot : line)
     {

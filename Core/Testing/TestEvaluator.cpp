@@ -361,8 +361,12 @@ TEST(Evaluator, RefusesBadRequests)
   EXPECT_THROW(Evaluator(spline, mesh, { -1 }), std::invalid_argument);
   const Evaluator evaluator(spline, mesh, { 3 });
   double value[2];
-  EXPECT_THROW(evaluator.EvaluateLattice({ { { 1.0, 0.0 }, { 0.0 }, { 0.0 } } }, { value }),
-    std::invalid_argument);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const std::vector<double>& u : { std::vector<double>{ 1.0, 0.0 }, { nan }, { 0.0, nan } })
+  {
+    EXPECT_THROW(
+      evaluator.EvaluateLattice({ { u, { 0.0 }, { 0.0 } } }, { value }), std::invalid_argument);
+  }
 }
 
 TEST(Evaluator, QuarterAnnulusHasItsVolume)
