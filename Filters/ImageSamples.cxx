@@ -228,10 +228,10 @@ ImageSamples ReadSamples(
 }
 
 //------------------------------------------------------------------------------
-bool GatherSamples(
-  ImageSamples& samples, const std::string& fault, vtkMultiProcessController* controller)
+bool GatherSamples(ImageSamples& samples, std::string& fault, vtkMultiProcessController* controller)
 {
   const int processes = controller->GetNumberOfProcesses();
+  const int me = controller->GetLocalProcessId();
   PieceHeader own;
   std::copy(samples.Extent.begin(), samples.Extent.end(), own.Numbers.begin());
   own.Numbers[PieceHeader::FAULTY] = !fault.empty();
@@ -247,6 +247,7 @@ bool GatherSamples(
     const auto& e = headers[p].Numbers;
     if (e[PieceHeader::FAULTY])
     {
+      fault = p == me ? fault : "";
       return false;
     }
     if (headers[p].Count() == 0)
@@ -257,7 +258,8 @@ bool GatherSamples(
     if (e[PieceHeader::COMPONENTS] != reference[PieceHeader::COMPONENTS] ||
         e[PieceHeader::MASKED] != reference[PieceHeader::MASKED])
     {
-      throw std::invalid_argument("The pieces of the image do not have the same arrays.");
+      fault = me == 0 ? "The pieces of the image do not have the same arrays." : "";
+      return false;
     }
     for (int a = 0; a < 3; ++a)
     {
@@ -299,7 +301,7 @@ bool GatherSamples(
   const std::vector<double> values = GatherToRoot(samples.Values, lengths, controller);
   const std::vector<std::uint8_t> mask = GatherToRoot(samples.Mask, counts, controller);
   samples = ImageSamples();
-  if (controller->GetLocalProcessId() != 0)
+  if (me != 0)
   {
     return true;
   }

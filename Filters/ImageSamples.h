@@ -50,12 +50,12 @@ ImageSamples ReadSamples(
 
 /**
  * Collective. Process 0 gets the samples of all, the others an empty object; pieces may overlap.
- * `fault` is why this process has no samples, empty when all is well; returns whether it was empty
- * everywhere. Memory of process 0: twice its result. Throws std::invalid_argument (on all
- * processes) when the pieces do not have the same arrays.
+ * `fault` is why this process has no samples, empty when all is well. When it is not empty
+ * everywhere, or the pieces do not have the same arrays, returns false, and leaves the fault to be
+ * told on one process only. Memory of process 0: twice its result.
  */
 bool GatherSamples(
-  ImageSamples& samples, const std::string& fault, vtkMultiProcessController* controller);
+  ImageSamples& samples, std::string& fault, vtkMultiProcessController* controller);
 }
 
 #endif

@@ -277,7 +277,7 @@ int vtkTSplineFit::RequestData(
       }
       else if (fault.empty())
       {
-        return 0; // the process at fault tells
+        return 0; // another process tells
       }
     }
     if (!fault.empty())

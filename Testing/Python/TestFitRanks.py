@@ -17,6 +17,7 @@ def run(ranks):
     done = subprocess.run(command, capture_output=True, text=True)
     output = done.stdout + done.stderr
     assert done.returncode == 0, output
+    assert output.count('no point array "absent"') == 1, output
     return dict(numpy.load(file)), output
 
 
