@@ -157,6 +157,7 @@ public:
       const bool isGood = this->IsGoodEnough();
       if (isGood || !this->RefineOnce(rule))
       {
+        this->DropDependentFunctions();
         this->Solve(FinalTolerance, FinalIterations);
         this->Result.Rounds.pop_back();
         this->Measure(true);
@@ -244,6 +245,19 @@ private:
       before = now;
       now = this->Result.Rounds.back().Rms;
     } while (now > RmsFloor && now < 0.1 * before);
+  }
+
+  // Knot insertion now and then makes more functions than the space has dimensions.
+  void DropDependentFunctions()
+  {
+    if (this->Options.Independent && this->Options.Rule == Refinement::Compact)
+    {
+      if (RepairLinearDependence(this->Result.Spline, this->Run) > 0)
+      {
+        this->System.Update(this->Result.Spline);
+      }
+      this->Lap("independence");
+    }
   }
 
   // Corrects the control points by what the normal equations make of the residual.

@@ -46,6 +46,12 @@ struct FitOptions
   /// Wanted root mean square and maximum error, as shares of each attribute's range; 0 = no limit.
   double RmsTolerance = 0.0;
   double MaximumErrorTolerance = 0.0;
+  /**
+   * Find and remove linear dependences that knot insertion left (RepairLinearDependence): for a
+   * basis, as analysis needs it. The fit itself does not, and the search takes as long again. The
+   * functions of the other rules are independent as they are.
+   */
+  bool Independent = false;
 };
 
 /// What one round of solve and refine reached; errors as shares of the range, the worst attribute.
