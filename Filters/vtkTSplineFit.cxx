@@ -291,6 +291,7 @@ int vtkTSplineFit::RequestData(
     options.MaximumControlPoints = this->MaximumNumberOfControlPoints;
     options.RmsTolerance = this->RMSTolerance / 100.0;
     options.MaximumErrorTolerance = this->MaximumErrorTolerance;
+    options.Independent = this->LinearlyIndependent;
     FitResult result = FitGrid(samples.View(), options, SMPExecution(this));
     TSplineToGrid(ToModel(result, samples), output);
     ToTable(result.Rounds, rounds);
@@ -321,6 +322,7 @@ void vtkTSplineFit::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumNumberOfControlPoints: " << this->MaximumNumberOfControlPoints << "\n";
   os << indent << "RMSTolerance: " << this->RMSTolerance << "\n";
   os << indent << "MaximumErrorTolerance: " << this->MaximumErrorTolerance << "\n";
+  os << indent << "LinearlyIndependent: " << this->LinearlyIndependent << "\n";
   os << indent << "Attributes:";
   for (const std::string& name : this->Attributes)
   {

@@ -113,6 +113,18 @@ public:
 
   ///@{
   /**
+   * Whether the blending functions of the compact rule are made linearly independent: a function
+   * that knot insertion left over is removed and the others adjusted, the spline staying what it
+   * is. A basis is needed for analysis, not for the fit; the search takes about as long again. The
+   * other rules give independent functions in any case. Default is false.
+   */
+  vtkSetMacro(LinearlyIndependent, bool);
+  vtkGetMacro(LinearlyIndependent, bool);
+  vtkBooleanMacro(LinearlyIndependent, bool);
+  ///@}
+
+  ///@{
+  /**
    * Names of further point arrays that are fitted beside the chosen one. Default is none; naming
    * the chosen one again changes nothing.
    */
@@ -162,6 +174,7 @@ private:
   int MaximumNumberOfControlPoints = 50000;
   double RMSTolerance = 0.0;
   double MaximumErrorTolerance = 0.0;
+  bool LinearlyIndependent = false;
   std::vector<std::string> Attributes;
   std::string MaskArray = "None";
   vtkMultiProcessController* Controller = nullptr;
