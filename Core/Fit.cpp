@@ -111,7 +111,11 @@ public:
     , Residuals(samples.Components)
   {
     this->Run.Continue = [this, &execution](double)
-    { return execution.Continue(this->Progress()); };
+    {
+      // Dropped functions take no progress back.
+      this->Done = std::max(this->Done, this->Progress());
+      return execution.Continue(this->Done);
+    };
     std::array<KnotLine, 3> lines;
     std::array<int, 3> stride;
     for (int a = 0; a < 3; ++a)
@@ -355,6 +359,7 @@ private:
   std::vector<Residual> Residuals; // one for each attribute, of the spline as it is
   RefinementMarks Marks;
   Index RootSize = 1;
+  double Done = 0.0;
 };
 }
 
