@@ -65,7 +65,7 @@ void CopyLattice(vtkInformation* info, vtkImageData* image)
 vtkTSplineSource::vtkTSplineSource()
 {
   this->SetNumberOfInputPorts(2);
-  this->Surfaces.fill({ 0.0, 0.5, 1.0 });
+  this->Surfaces.fill({ 0.5 });
   this->SetController(vtkMultiProcessController::GetGlobalController());
 }
 

@@ -124,7 +124,7 @@ public:
   ///@{
   /**
    * Where ISO_SURFACES lie across each direction, as shares of the parameter's range: 0 and 1 are
-   * the boundary faces. Valid range [0, 1]. Default is 0, 0.5, 1 in each direction.
+   * the boundary faces. Valid range [0, 1]. Default is 0.5 in each direction.
    */
   void AddSurfaceU(double share) { this->AddSurface(0, share); }
   void AddSurfaceV(double share) { this->AddSurface(1, share); }

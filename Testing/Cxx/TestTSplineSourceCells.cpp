@@ -218,7 +218,8 @@ TEST(TSplineSourceCells, BezierCellsHaveTheVolumeOfTheAnnulus)
 TEST(TSplineSourceCells, SurfacesLieWhereTheyShould)
 {
   auto source = MakeSource(QuarterAnnulus(4, 2), vtkTSplineSource::ISO_SURFACES);
-  EXPECT_EQ(source->GetNumberOfSurfaces(0), 3);
+  EXPECT_EQ(source->GetNumberOfSurfaces(0), 1);
+  EXPECT_EQ(source->GetSurface(0, 0), 0.5);
   source->RemoveAllSurfacesU();
   source->RemoveAllSurfacesV();
   source->RemoveAllSurfacesW();
