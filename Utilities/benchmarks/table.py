@@ -28,16 +28,31 @@ def arguments(name):
     return parts[0], dict(part.split(":") for part in parts[1:] if ":" in part)
 
 
-def number(value):
-    return "" if value is None else f"{value:,.0f}"
+# Columns: the head, where the value is (an argument or a result), how it is printed.
+COLUMNS = [
+    ("rule", "rule", lambda value: RULES[value]),
+    ("voxels", "voxels", lambda value: f"{value}^3"),
+    ("derivatives", "derivatives", str),
+    ("control points", "control_points", lambda value: f"{float(value):,.0f}"),
+    ("cells", "cells", lambda value: f"{value:,.0f}"),
+    ("ms", "real_time", lambda value: f"{value:.4g}"),
+    ("million items/s", "items_per_second", lambda value: f"{value * 1e-6:.3g}"),
+    ("MB", "megabytes", lambda value: f"{value:.0f}"),
+    ("RMS x 100", "rms_percent", lambda value: f"{value:.3g}"),
+    ("maximum error", "maximum_error", lambda value: f"{value:.2g}"),
+]
 
 
-def row(benchmark):
-    kind, given = arguments(benchmark.get("run_name", benchmark["name"]))
-    rate = benchmark.get("items_per_second")
-    return [kind, RULES.get(given.get("rule"), ""), given.get("derivatives", ""),
-            number(benchmark.get("control_points")), number(benchmark.get("cells")),
-            f"{benchmark['real_time']:.4g}", "" if rate is None else f"{rate * 1e-6:.3g}"]
+def table(benchmarks):
+    """Rows of the columns that any of the benchmarks has something for; the first row is heads."""
+    rows = []
+    for benchmark in benchmarks:
+        kind, given = arguments(benchmark.get("run_name", benchmark["name"]))
+        rows.append((kind, {**given, **benchmark}))
+    columns = [c for c in COLUMNS if any(c[1] in values for _, values in rows)]
+    yield [""] + [head for head, _, _ in columns]
+    for kind, values in rows:
+        yield [kind] + [show(values[key]) if key in values else "" for _, key, show in columns]
 
 
 def main(command):
@@ -45,14 +60,12 @@ def main(command):
     context = report["context"]
     print(f"{context['num_cpus']} cores at {context['mhz_per_cpu']} MHz, load "
           + "/".join(f"{load:.1f}" for load in os.getloadavg()) + ", " + context["date"])
-    print()
-    heads = ["", "rule", "derivatives", "control points", "cells", "ms", "million items/s"]
-    print("| " + " | ".join(heads) + " |")
-    print("|" + "---|" * len(heads))
     results = report["benchmarks"]
     medians = [b for b in results if b.get("aggregate_name") == "median"]
-    for benchmark in medians or results:
-        print("| " + " | ".join(row(benchmark)) + " |")
+    heads, *rows = table(medians or results)
+    print("\n| " + " | ".join(heads) + " |\n|" + "---|" * len(heads))
+    for row in rows:
+        print("| " + " | ".join(row) + " |")
 
 
 if __name__ == "__main__":
