@@ -27,9 +27,10 @@
  * attributes the worst counts. The last row belongs to the output.
  *
  * @par Cost
- * 8 bytes a voxel and component for a copy of the samples, as much again for the residual, and
- * about 6 kB a control point. Each round reads the voxels a few times; solving does not depend on
- * their number. Threaded with vtkSMPTools; the result does not depend on the number of threads.
+ * About 100 bytes a voxel for one component and 6 kB a control point at the peak, of which the copy
+ * of the samples is 8 bytes a voxel and component. Each round reads the voxels a few times; solving
+ * does not depend on their number. Threaded with vtkSMPTools; the result does not depend on the
+ * number of threads.
  *
  * @par Distributed data
  * The fit is one global solve. Under several processes the pieces are gathered to process 0 with a

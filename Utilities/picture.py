@@ -18,7 +18,7 @@ def otsu(values):
     above = below[-1] - below
     with numpy.errstate(divide="ignore", invalid="ignore"):
         between = below * above * (sums / below - (sums[-1] - sums) / above) ** 2
-    return centres[numpy.nanargmax(between[:-1])] if len(centres) > 1 else centres[0]
+    return centres[numpy.argmax(numpy.nan_to_num(between))]  # one of them where all are equal
 
 
 def view_of(title):
