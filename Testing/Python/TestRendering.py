@@ -8,12 +8,11 @@ import os
 import sys
 
 from paraview.simple import *
-from vtkmodules.vtkImagingCore import vtkImageDifference
-from vtkmodules.vtkIOImage import vtkPNGReader
+
+from Pictures import THRESHOLD, difference
 
 baselines = sys.argv[1]
 folder = baselines if "--update" in sys.argv else "."
-THRESHOLD = 15.0  # vtkImageDifference's error; edges that move by a pixel stay below
 
 
 def picture(name, proxy, representation, array=None, nonlinear=1):
@@ -36,17 +35,6 @@ def picture(name, proxy, representation, array=None, nonlinear=1):
     SaveScreenshot(os.path.join(folder, name + ".png"), view, ImageResolution=[300, 300])
 
 
-def difference(name):
-    readers = [vtkPNGReader(), vtkPNGReader()]
-    for reader, place in zip(readers, (folder, baselines)):
-        reader.SetFileName(os.path.join(place, name + ".png"))
-    compare = vtkImageDifference()
-    compare.SetInputConnection(readers[0].GetOutputPort())
-    compare.SetImageConnection(readers[1].GetOutputPort())
-    compare.Update()
-    return compare.GetThresholdedError()
-
-
 orbital = TrivariateOrbital(Dimensions=[32, 32, 32], HalfWidth=32.0)
 fit = TSplineFit(Input=orbital, RMSTolerance=0.5)
 image = TSplineSource(Input=fit, OutputType="Image", Points=orbital)
@@ -63,7 +51,7 @@ surfaces = TSplineSource(Input=fit, OutputType="Iso-Parametric Surfaces",
                          SurfacesU=[0.5], SurfacesV=[0.5], SurfacesW=[0.5])
 picture("OrbitalIsoParametricSurfaces", surfaces, "Surface", "Density")
 
-errors = {name: difference(name) for name in (
+errors = {name: difference(name, folder, baselines) for name in (
     "OrbitalIsoSurface", "OrbitalLinearHexahedra", "OrbitalBezierHexahedra",
     "OrbitalIsoParametricSurfaces")}
 print(errors)
