@@ -3,16 +3,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the benchmarks and prints a Markdown table, the machine and its load above it.
 
-    Utilities/benchmarks/table.py BUILD/bin/TrivariateBenchmarks [--benchmark_filter=Lattice ...]
+    Utilities/benchmarks/table.py BUILD/bin/TrivariateBenchmarks [--large] [--benchmark_filter=Fit ...]
 
-All further arguments go to the benchmarks. With --benchmark_repetitions=n the medians are shown.
+--large also fits volumes of 256^3 voxels, for minutes. All further arguments go to the benchmarks.
+With --benchmark_repetitions=n the medians are shown. "x uniform" is the time as a multiple of that
+of the uniform tensor-product fit, or of its evaluation, in the same run.
 """
 import json
 import os
 import subprocess
 import sys
 
-RULES = {"0": "compact", "1": "analysis-suitable", "2": "uniform"}
+UNIFORM = "2"
+RULES = {"0": "compact", "1": "analysis-suitable", UNIFORM: "uniform"}
 
 
 def run(command):
@@ -35,7 +38,8 @@ COLUMNS = [
     ("derivatives", "derivatives", str),
     ("control points", "control_points", lambda value: f"{float(value):,.0f}"),
     ("cells", "cells", lambda value: f"{value:,.0f}"),
-    ("ms", "real_time", lambda value: f"{value:.4g}"),
+    ("ms", "time", lambda value: f"{value:.4g}"),
+    ("x uniform", "times_uniform", lambda value: f"{value:.3g}"),
     ("million items/s", "items_per_second", lambda value: f"{value * 1e-6:.3g}"),
     ("MB", "megabytes", lambda value: f"{value:.0f}"),
     ("RMS x 100", "rms_percent", lambda value: f"{value:.3g}"),
@@ -46,9 +50,19 @@ COLUMNS = [
 def table(benchmarks):
     """Rows of the columns that any of the benchmarks has something for; the first row is heads."""
     rows = []
+    uniform = {}
     for benchmark in benchmarks:
-        kind, given = arguments(benchmark.get("run_name", benchmark["name"]))
-        rows.append((kind, {**given, **benchmark}))
+        name = benchmark.get("run_name", benchmark["name"])
+        kind, given = arguments(name)
+        # What is timed on one thread does not depend on what else the machine does.
+        time = benchmark["real_time" if "real_time" in name else "cpu_time"]
+        rows.append((kind, {**given, **benchmark, "time": time}))
+        rule = given.pop("rule", None)
+        case = (kind, *given.items())
+        if rule == UNIFORM:
+            uniform[case] = time
+        if case in uniform:
+            rows[-1][1]["times_uniform"] = time / uniform[case]
     columns = [c for c in COLUMNS if any(c[1] in values for _, values in rows)]
     yield [""] + [head for head, _, _ in columns]
     for kind, values in rows:
@@ -56,6 +70,10 @@ def table(benchmarks):
 
 
 def main(command):
+    if "--large" in command:
+        command.remove("--large")
+    elif not any(argument.startswith("--benchmark_filter") for argument in command):
+        command.append("--benchmark_filter=-voxels:256")
     report = run(command)
     context = report["context"]
     print(f"{context['num_cpus']} cores at {context['mhz_per_cpu']} MHz, load "
