@@ -168,6 +168,7 @@ public:
         // The last solve lowers the mean square, but it can raise the largest error again.
         if (!isGood || this->IsGoodEnough() || !this->RefineOnce(rule))
         {
+          this->DropEmptyFunctions();
           return std::move(this->Result);
         }
       }
@@ -262,6 +263,28 @@ private:
       }
       this->Lap("independence");
     }
+  }
+
+  // Under a mask, functions without a voxel stand for nothing. Those that have one but are zero
+  // there are kept: between the voxels that count the spline must be whole.
+  void DropEmptyFunctions()
+  {
+    TSpline& spline = this->Result.Spline;
+    Index kept = 0;
+    for (Index i = 0; i < spline.Size(); ++i)
+    {
+      if (this->System.HasVoxel(i))
+      {
+        spline.Functions[kept] = spline.Functions[i];
+        spline.Weights[kept] = spline.Weights[i];
+        std::copy_n(spline.ControlPoint(i), spline.Components, spline.ControlPoint(kept));
+        ++kept;
+      }
+    }
+    spline.Functions.resize(kept);
+    spline.Weights.resize(kept);
+    spline.ControlPoints.resize(kept * spline.Components);
+    this->Result.Rounds.back().ControlPoints = kept;
   }
 
   // Corrects the control points by what the normal equations make of the residual.

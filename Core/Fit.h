@@ -66,6 +66,8 @@ struct FitRound
 struct FitResult
 {
   /// Components: X, Y, Z (the parameter itself), then the attributes in the samples' own values.
+  /// Under a mask without the functions that have no voxel in their support: whole between voxels
+  /// that count, open elsewhere.
   TSpline Spline;
   std::vector<FitRound> Rounds; ///< the last one belongs to Spline
   std::array<int, 3>

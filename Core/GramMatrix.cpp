@@ -80,21 +80,6 @@ struct VoxelBox
   }
 };
 
-Index CountedVoxels(const VoxelMask& mask, const VoxelBox& box)
-{
-  const Index nx = mask.Size[0] + 1, ny = mask.Size[1] + 1;
-  Index sum = 0;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    const Index x = corner & 1 ? box.End[0] : box.Begin[0];
-    const Index y = corner & 2 ? box.End[1] : box.Begin[1];
-    const Index z = corner & 4 ? box.End[2] : box.Begin[2];
-    const int low = !(corner & 1) + !(corner & 2) + !(corner & 4);
-    sum += (low & 1 ? -1 : 1) * Index(mask.Counts[(z * ny + y) * nx + x]);
-  }
-  return sum;
-}
-
 // The product of two functions summed voxel by voxel, for pairs that the mask's border crosses.
 double MaskedDot(const VoxelMask& mask, const FunctionTable& table, Index i, Index j)
 {
@@ -165,6 +150,22 @@ void VoxelMask::Prepare(const Execution& execution)
 }
 
 //------------------------------------------------------------------------------
+Index VoxelMask::CountIn(const std::array<Index, 3>& begin, const std::array<Index, 3>& end) const
+{
+  const Index nx = this->Size[0] + 1, ny = this->Size[1] + 1;
+  Index sum = 0;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Index x = corner & 1 ? end[0] : begin[0];
+    const Index y = corner & 2 ? end[1] : begin[1];
+    const Index z = corner & 4 ? end[2] : begin[2];
+    const int low = !(corner & 1) + !(corner & 2) + !(corner & 4);
+    sum += (low & 1 ? -1 : 1) * Index(this->Counts[(z * ny + y) * nx + x]);
+  }
+  return sum;
+}
+
+//------------------------------------------------------------------------------
 GramMatrix::GramMatrix(const TSpline& spline, const FunctionTable& table, const VoxelMask& mask,
   const Execution& execution)
 {
@@ -186,7 +187,7 @@ GramMatrix::GramMatrix(const TSpline& spline, const FunctionTable& table, const 
   {
     const VoxelBox box(table, i, j);
     const Index all = box.Count();
-    const Index counted = all > 0 ? CountedVoxels(mask, box) : 0;
+    const Index counted = all > 0 ? mask.CountIn(box.Begin, box.End) : 0;
     return counted == 0 ? 0.0 : counted == all ? separable(i, j) : MaskedDot(mask, table, i, j);
   };
   const auto entry = [&separable, &masked, &mask](Index i, Index j)

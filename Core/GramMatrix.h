@@ -22,6 +22,9 @@ struct VoxelMask
   /// Voxels that count in all boxes from the origin: (x, y, z) exclusive; (Size + 1)^3 numbers.
   std::vector<std::int32_t> Counts;
   void Prepare(const Execution& execution);
+
+  /// Voxels that count in the box from begin to end (exclusive).
+  Index CountIn(const std::array<Index, 3>& begin, const std::array<Index, 3>& end) const;
 };
 
 /**

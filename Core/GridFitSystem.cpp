@@ -111,6 +111,23 @@ void GridFitSystem::Update(const TSpline& spline)
 }
 
 //------------------------------------------------------------------------------
+bool GridFitSystem::HasVoxel(Index i) const
+{
+  if (!this->Samples.Mask)
+  {
+    return true;
+  }
+  std::array<Index, 3> begin, end;
+  for (int a = 0; a < 3; ++a)
+  {
+    const SampledFunction& samples = this->Functions.Factor(i, a).Samples;
+    begin[a] = samples.first;
+    end[a] = begin[a] + static_cast<Index>(samples.second.size());
+  }
+  return this->Voxels.CountIn(begin, end) > 0;
+}
+
+//------------------------------------------------------------------------------
 Residual GridFitSystem::ComputeResidual(int component, const std::vector<double>& d)
 {
   if (this->Samples.Mask)

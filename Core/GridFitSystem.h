@@ -51,6 +51,10 @@ public:
   const FunctionTable& Table() const { return this->Functions; }
   const VoxelMask& Mask() const { return this->Voxels; }
   Index NumberOfVoxels() const { return this->CountedVoxels; }
+
+  /// Whether a voxel that counts lies in the support of function i or on its faces.
+  bool HasVoxel(Index i) const;
+
   double Mean(int component) const { return this->Means[component]; }
 
   /// Largest minus smallest sample of an attribute; where they are equal their size, or one.

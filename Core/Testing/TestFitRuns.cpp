@@ -71,6 +71,54 @@ TEST(FitMask, CountedVoxelsAreFittedBetterThanInTheWholeBox)
   }
 }
 
+// What is left is whole between voxels that count, also where functions are zero at the voxels.
+TEST(FitMask, FunctionsWithoutAVoxelAreDropped)
+{
+  const std::vector<std::array<Index, 3>> sizes = { { 30, 30, 30 }, { 24, 2, 19 } };
+  for (const auto& size : sizes)
+  {
+    std::mt19937 random(4);
+    Volume volume(size, { Shell(size) });
+    volume.Mask.resize(volume.Count());
+    for (Index i = 0; i < volume.Count(); ++i)
+    {
+      const Point x = volume.Voxel(i);
+      volume.Mask[i] = x[0] < 7 && x[1] < 6 && x[2] >= 4 && x[2] < 9;
+    }
+    const std::array<double, 3> low = { 0, 0, 4 };
+    const std::array<double, 3> high = { 6, std::min(5.0, double(size[1] - 1)), 8 };
+    for (const Refinement rule : Rules)
+    {
+      const FitResult result = FitGrid(volume.Samples(), Options(rule, 600));
+      const TSpline& spline = result.Spline;
+      EXPECT_EQ(Validate(spline), "");
+      EXPECT_EQ(result.Rounds.back().ControlPoints, spline.Size());
+      for (Index f = 0; f < spline.Size(); ++f)
+      {
+        for (int a = 0; a < 3; ++a)
+        {
+          const Knots5 t = spline.LocalKnotValues(f, a);
+          ASSERT_TRUE(t[0] <= high[a] && t[4] >= low[a]) << "function " << f << " has no voxel";
+        }
+      }
+      for (int sample = 0; sample < 200; ++sample)
+      {
+        Point x;
+        for (int a = 0; a < 3; ++a)
+        {
+          x[a] = Random(random, low[a], high[a]);
+        }
+        const std::vector<double> value = HomogeneousValue(spline, x);
+        ASSERT_NEAR(value.back(), 1.0, 1e-12) << "rule " << int(rule);
+        for (int a = 0; a < 3; ++a)
+        {
+          ASSERT_NEAR(value[a], x[a], 1e-11);
+        }
+      }
+    }
+  }
+}
+
 TEST(FitMask, OtherVoxelsDoNotMatter)
 {
   const std::array<Index, 3> size = { 20, 18, 22 };
