@@ -40,8 +40,7 @@ struct FieldSampler::Buffers
   }
 };
 
-FieldSampler::FieldSampler(
-  const TSplineView& view, bool positions, const Execution& execution)
+FieldSampler::FieldSampler(const TSplineView& view, bool positions, const Execution& execution)
   : Differentiates(view.Gradients || view.Jacobian)
 {
   const TSplineModel& model = view.Model;

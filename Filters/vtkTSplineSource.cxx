@@ -12,6 +12,7 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMath.h"
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -272,12 +273,14 @@ void vtkTSplineSource::RemoveAllSurfaces(int direction)
 
 int vtkTSplineSource::GetNumberOfSurfaces(int direction)
 {
-  return static_cast<int>(this->Surfaces.at(direction).size());
+  const bool exists = direction >= 0 && direction < 3;
+  return exists ? static_cast<int>(this->Surfaces[direction].size()) : 0;
 }
 
 double vtkTSplineSource::GetSurface(int direction, int index)
 {
-  return this->Surfaces.at(direction).at(index);
+  const bool exists = index >= 0 && index < this->GetNumberOfSurfaces(direction);
+  return exists ? this->Surfaces[direction][index] : vtkMath::Nan();
 }
 
 void vtkTSplineSource::PrintSelf(ostream& os, vtkIndent indent)
@@ -287,11 +290,10 @@ void vtkTSplineSource::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Dimensions: " << this->Dimensions[0] << " " << this->Dimensions[1] << " "
      << this->Dimensions[2] << "\n";
   os << indent << "Subdivisions: " << this->Subdivisions << "\n";
-  for (int a = 0; a < 3; ++a)
+  for (const std::vector<double>& shares : this->Surfaces)
   {
-    os << indent << "Surfaces"
-       << "UVW"[a] << ":";
-    for (const double share : this->Surfaces[a])
+    os << indent << "Surfaces:";
+    for (const double share : shares)
     {
       os << " " << share;
     }

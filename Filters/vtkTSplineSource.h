@@ -59,6 +59,11 @@
  * The spline lives on the rank that has piece 0, and so do all outputs but POINTS, for which it is
  * sent to all ranks: each evaluates its own piece of port 1.
  *
+ * @par Errors
+ * A grid without control points or that is no T-spline (see TSplineFromGrid), POINTS without a
+ * second input, IMAGE with one that is no image, fewer than two points along an axis, a surface
+ * outside of [0, 1], an output that does not fit into memory, a spline spread over several ranks.
+ *
  * @sa vtkTSplineFit vtkTSplineReader vtkTessellatorFilter
  */
 #ifndef vtkTSplineSource_h
@@ -124,7 +129,8 @@ public:
   ///@{
   /**
    * Where ISO_SURFACES lie across each direction, as shares of the parameter's range: 0 and 1 are
-   * the boundary faces. Valid range [0, 1]. Default is 0.5 in each direction.
+   * the boundary faces. Valid range [0, 1]. Default is 0.5 in each direction. GetSurface gives NaN
+   * for one that does not exist.
    */
   void AddSurfaceU(double share) { this->AddSurface(0, share); }
   void AddSurfaceV(double share) { this->AddSurface(1, share); }
