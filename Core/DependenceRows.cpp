@@ -18,15 +18,15 @@ namespace
 // of the levels between two knots.
 constexpr double Zero = 1e-12;
 
-// A unit cell in the support of f: next to its centre in round zero, later anywhere in one of its
-// knot spans.
+// A unit cell in the support of f: next to its centre in the central round, else anywhere in one of
+// its knot spans.
 GridIndex PlaceOf(const BlendingFunction& f, unsigned round)
 {
   GridIndex place;
   for (int a = 0; a < 3; ++a)
   {
     const LocalKnots& k = f[a];
-    if (round == 0)
+    if (round == CentralRound)
     {
       place[a] = k[2] < k[4] ? k[2] : k[2] - 1;
       continue;
@@ -44,35 +44,83 @@ GridIndex PlaceOf(const BlendingFunction& f, unsigned round)
   return place;
 }
 
+// A place, the functions that are active there, and those of them whose rows are taken there.
+struct Site
+{
+  GridIndex Place;
+  std::vector<int> Active, Rows;
+};
+
+// A site for each function, which is empty for those that another site serves: one with at most
+// `share` active functions serves them all.
+std::vector<Site> MakeSites(const std::vector<BlendingFunction>& functions, unsigned round,
+  std::size_t share, const Execution& execution)
+{
+  const SupportTree tree(functions);
+  std::vector<Site> sites(functions.size());
+  execution.ParallelFor(static_cast<Index>(sites.size()),
+    [&](Index begin, Index end)
+    {
+      for (Index i = begin; i < end; ++i)
+      {
+        Site& site = sites[i];
+        const GridIndex& low = site.Place = PlaceOf(functions[i], round);
+        tree.Query({ low, { low[0] + 1, low[1] + 1, low[2] + 1 } },
+          [&site](Index j) { site.Active.push_back(static_cast<int>(j)); });
+      }
+    });
+  std::vector<char> served(functions.size(), false);
+  for (int i = 0; i < static_cast<int>(sites.size()); ++i)
+  {
+    const auto serve = [&](int j)
+    {
+      if (!served[j])
+      {
+        served[j] = true;
+        sites[i].Rows.push_back(j);
+      }
+    };
+    if (!served[i])
+    {
+      serve(i);
+      if (sites[i].Active.size() <= share)
+      {
+        std::for_each(sites[i].Active.begin(), sites[i].Active.end(), serve);
+      }
+    }
+  }
+  return sites;
+}
+
 // One row for each function i: coefficient(i, j, place) for all j that are active at i's place,
 // without the zeros.
 template <typename Coefficient>
 DependenceRows MakeRows(const TSpline& spline, const std::vector<Index>& functions, unsigned round,
-  const Execution& execution, const Coefficient& coefficient)
+  std::size_t share, const Execution& execution, const Coefficient& coefficient)
 {
   std::vector<BlendingFunction> knots;
   for (const Index i : functions)
   {
     knots.push_back(spline.Functions[i]);
   }
-  const SupportTree tree(knots);
+  const std::vector<Site> sites = MakeSites(knots, round, share, execution);
   DependenceRows rows(knots.size());
-  execution.ParallelFor(static_cast<Index>(knots.size()),
+  execution.ParallelFor(static_cast<Index>(sites.size()),
     [&](Index begin, Index end)
     {
-      for (Index i = begin; i < end; ++i)
+      for (Index s = begin; s < end; ++s)
       {
-        const GridIndex place = PlaceOf(knots[i], round);
-        const IndexBox unit{ place, { place[0] + 1, place[1] + 1, place[2] + 1 } };
-        tree.Query(unit,
-          [&](Index j)
+        for (const int i : sites[s].Rows)
+        {
+          for (const int j : sites[s].Active)
           {
-            const double value = coefficient(functions[i], functions[j], place);
+            const double value = coefficient(knots[i], knots[j], sites[s].Place);
             if (value != 0.0)
             {
-              rows[i].push_back({ static_cast<int>(j), value });
+              rows[i].push_back({ j, value });
             }
-          });
+          }
+        }
       }
     });
   return rows;
@@ -83,10 +131,13 @@ DependenceRows MakeRows(const TSpline& spline, const std::vector<Index>& functio
 DependenceRows MakeDependenceRows(const TSpline& spline, const std::vector<Index>& functions,
   unsigned round, const Execution& execution)
 {
-  return MakeRows(spline, functions, round, execution,
-    [&spline](Index i, Index j, const GridIndex& place)
+  // Of all functions there are 64 or more at each place. Where it is 64, their rows make a block of
+  // its own; later, when a few are left of the functions at each place, rows from many places are
+  // worth more.
+  const std::size_t share = round == FirstSearchRound ? 64 : 1;
+  return MakeRows(spline, functions, round, share, execution,
+    [&spline](const BlendingFunction& f, const BlendingFunction& g, const GridIndex& place)
     {
-      const BlendingFunction &f = spline.Functions[i], &g = spline.Functions[j];
       double value = DualCompatible(f, g) ? 0.0 : 1.0;
       for (int a = 0; a < 3 && value != 0.0; ++a)
       {
@@ -104,8 +155,8 @@ DependenceRows MakeValueRows(const TSpline& spline, const std::vector<Index>& fu
   // takes four places in a direction to tell from zero.
   const std::array<double, 3> inUnit = { std::fmod(0.3 + 0.754877666 * round, 1.0),
     std::fmod(0.6 + 0.569840291 * round, 1.0), std::fmod(0.4 + 0.430159709 * round, 1.0) };
-  return MakeRows(spline, functions, round, execution,
-    [&](Index, Index j, const GridIndex& place)
+  return MakeRows(spline, functions, round, 1, execution,
+    [&](const BlendingFunction&, const BlendingFunction& g, const GridIndex& place)
     {
       double value = 1.0;
       for (int a = 0; a < 3; ++a)
@@ -113,7 +164,7 @@ DependenceRows MakeValueRows(const TSpline& spline, const std::vector<Index>& fu
         const KnotLine& line = spline.KnotLines[a];
         const double low = line[place[a]], high = line[place[a] + 1];
         const double x = low + inUnit[a] * (high - low);
-        value *= BlossomAround(spline.Functions[j][a], place[a], line, x, x, x);
+        value *= BlossomAround(g[a], place[a], line, x, x, x);
       }
       return value;
     });

@@ -22,6 +22,13 @@ struct DependenceEntry
 };
 using DependenceRows = std::vector<std::vector<DependenceEntry>>;
 
+/// In this round places are next to the functions' centres, for equations with small coefficients.
+constexpr unsigned CentralRound = 0;
+
+/// In this round and later ones places are anywhere in the supports. The first one is for all
+/// functions of a spline: where no more than 64 are active, it takes the equations of all of them.
+constexpr unsigned FirstSearchRound = 1;
+
 /**
  * One equation for each of the given functions (rows and columns count within the list), provided
  * that the coefficients of all others are zero: its dual functional around a place in its support,

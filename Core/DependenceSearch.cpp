@@ -239,7 +239,8 @@ void Reduce(MatrixXd& columns)
 MatrixXd DependencesAmong(
   const TSpline& spline, const std::vector<Index>& functions, const Execution& execution)
 {
-  Solutions solutions = SolveByBlocks(MakeDependenceRows(spline, functions, 0, execution));
+  Solutions solutions =
+    SolveByBlocks(MakeDependenceRows(spline, functions, CentralRound, execution));
   if (solutions.X.cols() == 0)
   {
     return solutions.X;
@@ -272,7 +273,7 @@ std::vector<LinearDependence> FindLinearDependences(
 {
   std::vector<Index> open(spline.Functions.size());
   std::iota(open.begin(), open.end(), Index(0));
-  unsigned round = 0;
+  unsigned round = FirstSearchRound;
   bool goOn = !open.empty();
   for (int fruitless = 0; goOn; ++round)
   {

@@ -39,7 +39,7 @@ struct LinearDependence
  * As many functions as there are dependences are too many. `spline` must be valid; its control
  * points and weights do not matter.
  *
- * Cost: 50 microseconds a function on steeply graded meshes, 5 on even ones, on one thread, most of
+ * Cost: 35 microseconds a function on steeply graded meshes, 5 on even ones, on one thread, most of
  * it in parallel; memory about 300 bytes a function. Throws Aborted when stopped.
  */
 std::vector<LinearDependence> FindLinearDependences(
