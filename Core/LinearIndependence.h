@@ -40,7 +40,7 @@ struct LinearDependence
  * points and weights do not matter.
  *
  * Cost: 35 microseconds a function on steeply graded meshes, 5 on even ones, on one thread, most of
- * it in parallel; memory about 300 bytes a function. Throws Aborted when stopped.
+ * it in parallel; memory about 1 kB a function. Throws Aborted when stopped.
  */
 std::vector<LinearDependence> FindLinearDependences(
   const TSpline& spline, const Execution& execution = {});
