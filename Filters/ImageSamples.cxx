@@ -5,16 +5,13 @@
 #include "MemoryLimit.h"
 
 #include "vtkArrayDispatch.h"
-#include "vtkCommunicator.h"
 #include "vtkDataArray.h"
 #include "vtkDataArrayRange.h"
 #include "vtkImageData.h"
 #include "vtkMatrix4x4.h"
-#include "vtkMultiProcessController.h"
-#include "vtkMultiProcessStream.h"
+#include "vtkPointData.h"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 
 namespace trivariate
@@ -55,6 +52,47 @@ std::string NameOf(vtkDataArray* array)
 }
 
 //------------------------------------------------------------------------------
+// The chosen array and the further ones, each once; throws when one is missing.
+std::vector<vtkDataArray*> AttributeArrays(
+  vtkImageData* image, vtkDataArray* chosen, const std::vector<std::string>& further)
+{
+  if (!chosen)
+  {
+    throw std::invalid_argument("The image does not have the point array that was chosen; use "
+                                "SetInputArrayToProcess(0, ...).");
+  }
+  std::vector<vtkDataArray*> arrays = { chosen };
+  for (const std::string& name : further)
+  {
+    vtkDataArray* array = image->GetPointData()->GetArray(name.c_str());
+    if (!array)
+    {
+      throw std::invalid_argument("The image has no point array \"" + name + "\" to fit.");
+    }
+    if (std::find(arrays.begin(), arrays.end(), array) == arrays.end())
+    {
+      arrays.push_back(array);
+    }
+  }
+  return arrays;
+}
+
+//------------------------------------------------------------------------------
+vtkDataArray* MaskOf(vtkImageData* image, const std::string& name)
+{
+  if (name.empty() || name == "None")
+  {
+    return nullptr;
+  }
+  vtkDataArray* mask = image->GetPointData()->GetArray(name.c_str());
+  if (!mask)
+  {
+    throw std::invalid_argument("The image has no point array \"" + name + "\" for a mask.");
+  }
+  return mask;
+}
+
+//------------------------------------------------------------------------------
 void CheckTuples(vtkImageData* image, vtkDataArray* array)
 {
   if (array->GetNumberOfTuples() != image->GetNumberOfPoints())
@@ -73,71 +111,6 @@ void CheckMemory(double values)
   {
     throw std::invalid_argument(fault);
   }
-}
-
-//------------------------------------------------------------------------------
-// What a process must know of another's piece before the values are sent.
-struct PieceHeader
-{
-  enum Field
-  {
-    FAULTY = 6,
-    COMPONENTS,
-    MASKED,
-    LENGTH
-  };
-  std::array<int, LENGTH> Numbers;
-
-  Index Count() const
-  {
-    Index count = 1;
-    for (int a = 0; a < 3; ++a)
-    {
-      count *= std::max(0, this->Numbers[2 * a + 1] - this->Numbers[2 * a] + 1);
-    }
-    return count;
-  }
-};
-
-//------------------------------------------------------------------------------
-// Copies `components` blocks of a piece to their places in the blocks of the whole.
-template <typename T>
-void Assemble(const T* piece, const PieceHeader& header, int components, const ImageSamples& whole,
-  std::vector<T>& values)
-{
-  const auto& e = header.Numbers;
-  const Index row = e[1] - e[0] + 1;
-  for (int c = 0; c < components; ++c)
-  {
-    for (int k = e[4]; k <= e[5]; ++k)
-    {
-      for (int j = e[2]; j <= e[3]; ++j, piece += row)
-      {
-        const Index at =
-          e[0] - whole.Extent[0] +
-          whole.Points(0) * (j - whole.Extent[2] +
-                              whole.Points(1) * (k - whole.Extent[4] + whole.Points(2) * Index(c)));
-        std::copy_n(piece, row, &values[at]);
-      }
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-// Sends everybody's numbers to process 0, one piece after another.
-template <typename T>
-std::vector<T> GatherToRoot(
-  const std::vector<T>& own, std::vector<vtkIdType> lengths, vtkMultiProcessController* controller)
-{
-  std::vector<vtkIdType> offsets(lengths.size() + 1, 0);
-  for (std::size_t p = 0; p < lengths.size(); ++p)
-  {
-    offsets[p + 1] = offsets[p] + lengths[p];
-  }
-  std::vector<T> all(controller->GetLocalProcessId() == 0 ? offsets.back() : 0);
-  controller->GatherV(
-    own.data(), all.data(), static_cast<vtkIdType>(own.size()), lengths.data(), offsets.data(), 0);
-  return all;
 }
 }
 
@@ -182,10 +155,12 @@ std::array<double, 3> ImageSamples::ToPhysical(const double* parameter) const
 }
 
 //------------------------------------------------------------------------------
-ImageSamples ReadSamples(
-  vtkImageData* image, const std::vector<vtkDataArray*>& arrays, vtkDataArray* mask)
+ImageSamples ReadSamples(vtkImageData* image, vtkDataArray* chosen,
+  const std::vector<std::string>& further, const std::string& maskName)
 {
   ImageSamples samples;
+  const std::vector<vtkDataArray*> arrays = AttributeArrays(image, chosen, further);
+  vtkDataArray* mask = MaskOf(image, maskName);
   image->GetExtent(samples.Extent.data());
   const double* matrix = image->GetIndexToPhysicalMatrix()->GetData();
   std::copy_n(matrix, 16, samples.IndexToPhysical.begin());
@@ -228,96 +203,22 @@ ImageSamples ReadSamples(
 }
 
 //------------------------------------------------------------------------------
-bool GatherSamples(ImageSamples& samples, std::string& fault, vtkMultiProcessController* controller)
+// What the core would say in parameters, said in the user's words.
+void CheckExtent(const ImageSamples& samples)
 {
-  const int processes = controller->GetNumberOfProcesses();
-  const int me = controller->GetLocalProcessId();
-  PieceHeader own;
-  std::copy(samples.Extent.begin(), samples.Extent.end(), own.Numbers.begin());
-  own.Numbers[PieceHeader::FAULTY] = !fault.empty();
-  own.Numbers[PieceHeader::COMPONENTS] = samples.Components();
-  own.Numbers[PieceHeader::MASKED] = !samples.Mask.empty();
-  std::vector<PieceHeader> headers(processes);
-  controller->AllGather(own.Numbers.data(), headers.front().Numbers.data(), PieceHeader::LENGTH);
-
-  ImageSamples whole;
-  int first = -1; // a process whose piece is not empty: it knows the arrays
-  for (int p = 0; p < processes; ++p)
+  if (samples.Count() == 0)
   {
-    const auto& e = headers[p].Numbers;
-    if (e[PieceHeader::FAULTY])
+    throw std::invalid_argument("The image has no points.");
+  }
+  for (int a = 0; a < 3; ++a)
+  {
+    if (samples.Points(a) < 2)
     {
-      fault = p == me ? fault : "";
-      return false;
+      throw std::invalid_argument("The image has " + std::to_string(samples.Points(0)) + " x " +
+                                  std::to_string(samples.Points(1)) + " x " +
+                                  std::to_string(samples.Points(2)) +
+                                  " points; a volume needs two or more along each axis.");
     }
-    if (headers[p].Count() == 0)
-    {
-      continue;
-    }
-    const auto& reference = headers[first < 0 ? p : first].Numbers;
-    if (e[PieceHeader::COMPONENTS] != reference[PieceHeader::COMPONENTS] ||
-        e[PieceHeader::MASKED] != reference[PieceHeader::MASKED])
-    {
-      fault = me == 0 ? "The pieces of the image do not have the same arrays." : "";
-      return false;
-    }
-    for (int a = 0; a < 3; ++a)
-    {
-      int* extent = &whole.Extent[2 * a];
-      extent[0] = first < 0 ? e[2 * a] : std::min(extent[0], e[2 * a]);
-      extent[1] = first < 0 ? e[2 * a + 1] : std::max(extent[1], e[2 * a + 1]);
-    }
-    first = first < 0 ? p : first;
   }
-  if (first < 0)
-  {
-    samples = ImageSamples();
-    return true;
-  }
-
-  controller->Broadcast(samples.IndexToPhysical.data(), 16, first);
-  whole.IndexToPhysical = samples.IndexToPhysical;
-  vtkMultiProcessStream names;
-  for (const TSplineAttribute& attribute : samples.Attributes)
-  {
-    names << attribute.Name << attribute.Components;
-  }
-  controller->Broadcast(names, first);
-  while (!names.Empty())
-  {
-    TSplineAttribute attribute;
-    names >> attribute.Name >> attribute.Components;
-    whole.Attributes.push_back(attribute);
-  }
-
-  const int components = whole.Components();
-  const bool masked = headers[first].Numbers[PieceHeader::MASKED] != 0;
-  std::vector<vtkIdType> counts, lengths;
-  for (const PieceHeader& header : headers)
-  {
-    counts.push_back(masked ? header.Count() : 0);
-    lengths.push_back(components * header.Count());
-  }
-  const std::vector<double> values = GatherToRoot(samples.Values, lengths, controller);
-  const std::vector<std::uint8_t> mask = GatherToRoot(samples.Mask, counts, controller);
-  samples = ImageSamples();
-  if (me != 0)
-  {
-    return true;
-  }
-  // A hole between the pieces stays NaN, which the fit refuses.
-  whole.Values.assign(components * whole.Count(), std::numeric_limits<double>::quiet_NaN());
-  whole.Mask.assign(masked ? whole.Count() : 0, 1);
-  const double* pieceValues = values.data();
-  const std::uint8_t* pieceMask = mask.data();
-  for (int p = 0; p < processes; ++p)
-  {
-    Assemble(pieceValues, headers[p], components, whole, whole.Values);
-    Assemble(pieceMask, headers[p], masked ? 1 : 0, whole, whole.Mask);
-    pieceValues += lengths[p];
-    pieceMask += counts[p];
-  }
-  samples = std::move(whole);
-  return true;
 }
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Point arrays of an image as the core's samples, from one process or gathered from many.
+ * Point arrays of an image as the core's samples.
  */
 #ifndef ImageSamples_h
 #define ImageSamples_h
@@ -16,7 +16,6 @@
 
 class vtkDataArray;
 class vtkImageData;
-class vtkMultiProcessController;
 
 namespace trivariate
 {
@@ -41,21 +40,15 @@ struct ImageSamples
 };
 
 /**
- * Copies the arrays of `image`, which must have as many tuples as the image has points; `mask` may
- * be null. An array without a name is called ImageScalars. Throws std::invalid_argument with a
- * sentence for the user.
+ * Copies the point arrays of an image: the chosen one and those with further names, each once, and
+ * the mask unless its name is empty or "None". An array without a name is called ImageScalars.
+ * Throws std::invalid_argument with a sentence for the user.
  */
-ImageSamples ReadSamples(
-  vtkImageData* image, const std::vector<vtkDataArray*>& arrays, vtkDataArray* mask);
+ImageSamples ReadSamples(vtkImageData* image, vtkDataArray* chosen,
+  const std::vector<std::string>& further, const std::string& maskName);
 
-/**
- * Collective. Process 0 gets the samples of all, the others an empty object; pieces may overlap.
- * `fault` is why this process has no samples, empty when all is well. When it is not empty
- * everywhere, or the pieces do not have the same arrays, returns false, and leaves the fault to be
- * told on one process only. Memory of process 0: twice its result.
- */
-bool GatherSamples(
-  ImageSamples& samples, std::string& fault, vtkMultiProcessController* controller);
+/// Throws std::invalid_argument when there are no points or fewer than two along an axis.
+void CheckExtent(const ImageSamples& samples);
 }
 
 #endif

@@ -3,7 +3,7 @@
 #include "vtkTSplineFit.h"
 
 #include "Fit.h"
-#include "ImageSamples.h"
+#include "GatherSamples.h"
 #include "SMPExecution.h"
 #include "TSplineGrid.h"
 
@@ -32,67 +32,6 @@ vtkCxxSetObjectMacro(vtkTSplineFit, Controller, vtkMultiProcessController);
 
 namespace
 {
-//------------------------------------------------------------------------------
-// The chosen array and the further ones, each once; throws when one is missing.
-std::vector<vtkDataArray*> AttributeArrays(
-  vtkImageData* image, vtkDataArray* chosen, const std::vector<std::string>& further)
-{
-  if (!chosen)
-  {
-    throw std::invalid_argument("The image does not have the point array that was chosen; use "
-                                "SetInputArrayToProcess(0, ...).");
-  }
-  std::vector<vtkDataArray*> arrays = { chosen };
-  for (const std::string& name : further)
-  {
-    vtkDataArray* array = image->GetPointData()->GetArray(name.c_str());
-    if (!array)
-    {
-      throw std::invalid_argument("The image has no point array \"" + name + "\" to fit.");
-    }
-    if (std::find(arrays.begin(), arrays.end(), array) == arrays.end())
-    {
-      arrays.push_back(array);
-    }
-  }
-  return arrays;
-}
-
-//------------------------------------------------------------------------------
-vtkDataArray* MaskOf(vtkImageData* image, const std::string& name)
-{
-  if (name.empty() || name == "None")
-  {
-    return nullptr;
-  }
-  vtkDataArray* mask = image->GetPointData()->GetArray(name.c_str());
-  if (!mask)
-  {
-    throw std::invalid_argument("The image has no point array \"" + name + "\" for a mask.");
-  }
-  return mask;
-}
-
-//------------------------------------------------------------------------------
-// What the core would say in parameters, said in the user's words.
-void CheckExtent(const ImageSamples& samples)
-{
-  if (samples.Count() == 0)
-  {
-    throw std::invalid_argument("The image has no points.");
-  }
-  for (int a = 0; a < 3; ++a)
-  {
-    if (samples.Points(a) < 2)
-    {
-      throw std::invalid_argument("The image has " + std::to_string(samples.Points(0)) + " x " +
-                                  std::to_string(samples.Points(1)) + " x " +
-                                  std::to_string(samples.Points(2)) +
-                                  " points; a volume needs two or more along each axis.");
-    }
-  }
-}
-
 //------------------------------------------------------------------------------
 TSplineModel ToModel(FitResult& result, const ImageSamples& samples)
 {
@@ -250,9 +189,7 @@ int vtkTSplineFit::RequestData(
   {
     if (input->GetNumberOfPoints() > 0)
     {
-      samples =
-        ReadSamples(input, AttributeArrays(input, this->ChosenArray(input), this->Attributes),
-          MaskOf(input, this->MaskArray));
+      samples = ReadSamples(input, this->ChosenArray(input), this->Attributes, this->MaskArray);
     }
   }
   catch (const std::exception& error)
