@@ -12,8 +12,7 @@
 #include "RefinementRule.h"
 
 #include <algorithm>
-#include <deque>
-#include <numeric>
+#include <queue>
 
 namespace trivariate
 {
@@ -84,6 +83,11 @@ std::uint64_t MortonCode(const BlendingFunction& f)
   return code;
 }
 
+Index SupportVolume(const BlendingFunction& f)
+{
+  return Index(f[0][4] - f[0][0]) * Index(f[1][4] - f[1][0]) * Index(f[2][4] - f[2][0]);
+}
+
 class KnotInsertionRule : public RefinementRule
 {
 public:
@@ -119,21 +123,29 @@ public:
   }
 
 private:
-  // First in, first out: large functions are split before the small ones that they would add to.
+  // The function with the largest support first. A child's support is smaller than its parent's, so
+  // when a function's turn comes all that merges into it has done so, and it is split only once.
   void SplitAll(const std::array<KnotLine, 3>& lines, FunctionPool& pool) const
   {
-    std::deque<Index> waiting(pool.Functions.size());
-    std::iota(waiting.begin(), waiting.end(), Index(0));
-    for (; !waiting.empty(); waiting.pop_front())
+    std::priority_queue<std::pair<Index, Index>> waiting; // volume of the support, id
+    int direction = 0;
+    const auto enqueue = [this, &pool, &waiting, &direction](Index id)
     {
-      const Index id = waiting.front();
-      const BlendingFunction parent = pool.Functions[id];
-      int direction = 0;
-      const std::int32_t knot = this->Faces.FindCrossing(parent, direction);
-      if (knot < 0)
+      if (this->Faces.FindCrossing(pool.Functions[id], direction) >= 0)
       {
-        continue;
+        waiting.emplace(SupportVolume(pool.Functions[id]), id);
       }
+    };
+    for (Index id = 0; id < static_cast<Index>(pool.Functions.size()); ++id)
+    {
+      enqueue(id);
+    }
+    while (!waiting.empty())
+    {
+      const Index id = waiting.top().second;
+      waiting.pop();
+      const BlendingFunction parent = pool.Functions[id];
+      const std::int32_t knot = this->Faces.FindCrossing(parent, direction);
       const KnotLine& line = lines[direction];
       const LocalKnots& k = parent[direction];
       const KnotInsertion factor =
@@ -151,7 +163,7 @@ private:
         const auto [childId, isNew] = pool.Add(child, share, row);
         if (isNew)
         {
-          waiting.push_back(childId);
+          enqueue(childId);
         }
       }
     }
