@@ -4,6 +4,7 @@
 #include "DualCompatibility.h"
 #include "Fit.h"
 #include "GridVolumes.h"
+#include "Rank.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -264,6 +265,22 @@ TEST(Fit, AnalysisSuitableResultIsDualCompatible)
       ASSERT_EQ(w, 1.0);
     }
   }
+}
+
+// A slanted edge, where refinement can make a function too many.
+TEST(Fit, IndependentFunctionsOnRequest)
+{
+  const Volume volume({ 22, 20, 24 }, { [](const Point& x) {
+    return x[0] * std::cos(1.0) + x[1] * std::sin(1.0) + x[2] * std::cos(2.0) > 8.0 ? 1.0 : 0.0;
+  } });
+  FitOptions options = Options(Refinement::Compact, 900);
+  const FitResult dependent = FitGrid(volume.Samples(), options);
+  options.Independent = true;
+  const FitResult basis = FitGrid(volume.Samples(), options);
+  CheckResult(basis, volume);
+  EXPECT_GT(SmallestSingularValue(basis.Spline), 1e-5);
+  EXPECT_LE(basis.Spline.Size(), dependent.Spline.Size());
+  EXPECT_LE(basis.Rounds.back().Rms, 1.01 * dependent.Rounds.back().Rms);
 }
 
 // No fit with the same functions is better: the gradient vanishes at the final control points.
