@@ -268,12 +268,13 @@ TEST(Fit, AnalysisSuitableResultIsDualCompatible)
 }
 
 // A slanted edge, where refinement can make a function too many.
-TEST(Fit, IndependentFunctionsOnRequest)
+TEST(Fit, GivesIndependentFunctions)
 {
   const Volume volume({ 22, 20, 24 }, { [](const Point& x) {
     return x[0] * std::cos(1.0) + x[1] * std::sin(1.0) + x[2] * std::cos(2.0) > 8.0 ? 1.0 : 0.0;
   } });
   FitOptions options = Options(Refinement::Compact, 900);
+  options.Independent = false;
   const FitResult dependent = FitGrid(volume.Samples(), options);
   options.Independent = true;
   const FitResult basis = FitGrid(volume.Samples(), options);
