@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <queue>
+#include <tuple>
 
 namespace trivariate
 {
@@ -88,6 +89,19 @@ Index SupportVolume(const BlendingFunction& f)
   return Index(f[0][4] - f[0][0]) * Index(f[1][4] - f[1][0]) * Index(f[2][4] - f[2][0]);
 }
 
+// A function that a face crosses, and where.
+struct Split
+{
+  Index Volume, Function;
+  int Direction;
+  std::int32_t Knot;
+
+  bool operator<(const Split& other) const
+  {
+    return std::tie(this->Volume, this->Function) < std::tie(other.Volume, other.Function);
+  }
+};
+
 class KnotInsertionRule : public RefinementRule
 {
 public:
@@ -127,13 +141,14 @@ private:
   // when a function's turn comes all that merges into it has done so, and it is split only once.
   void SplitAll(const std::array<KnotLine, 3>& lines, FunctionPool& pool) const
   {
-    std::priority_queue<std::pair<Index, Index>> waiting; // volume of the support, id
-    int direction = 0;
-    const auto enqueue = [this, &pool, &waiting, &direction](Index id)
+    std::priority_queue<Split> waiting;
+    const auto enqueue = [this, &pool, &waiting](Index id)
     {
-      if (this->Faces.FindCrossing(pool.Functions[id], direction) >= 0)
+      int direction = 0;
+      const std::int32_t knot = this->Faces.FindCrossing(pool.Functions[id], direction);
+      if (knot >= 0)
       {
-        waiting.emplace(SupportVolume(pool.Functions[id]), id);
+        waiting.push({ SupportVolume(pool.Functions[id]), id, direction, knot });
       }
     };
     for (Index id = 0; id < static_cast<Index>(pool.Functions.size()); ++id)
@@ -142,10 +157,9 @@ private:
     }
     while (!waiting.empty())
     {
-      const Index id = waiting.top().second;
+      const auto [volume, id, direction, knot] = waiting.top();
       waiting.pop();
       const BlendingFunction parent = pool.Functions[id];
-      const std::int32_t knot = this->Faces.FindCrossing(parent, direction);
       const KnotLine& line = lines[direction];
       const LocalKnots& k = parent[direction];
       const KnotInsertion factor =

@@ -65,8 +65,9 @@ bool RefinementMarks::Refine(std::vector<SplitGain> gains, Index maximum, TSplin
   const Index size = spline.Size();
   const Index step = StepOf(size);
   const Index limit = std::min(maximum, size + step + step / 4);
-  const Index wanted = std::min(maximum, size + step) - size;
-  if (maximum - size <= maximum / 200)
+  // Aim a little below the maximum, for a trial that exceeds it is lost.
+  const Index wanted = std::min(size + step, maximum - maximum / 200) - size;
+  if (maximum - size <= maximum / 100)
   {
     return false; // near enough: a round for the last few functions is not worth its time
   }
