@@ -14,7 +14,7 @@ namespace
 // spline is cheap to solve and decides where all else goes, so its steps are small.
 Index StepOf(Index size)
 {
-  constexpr double sizeOfWholeStep = 7000.0;
+  constexpr double sizeOfWholeStep = 9000.0;
   const double growth = std::clamp(size / sizeOfWholeStep, 0.15, 0.5);
   return std::max<Index>(32, static_cast<Index>(growth * size));
 }
