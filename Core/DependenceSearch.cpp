@@ -213,7 +213,7 @@ void Reduce(MatrixXd& columns)
     Index row = 0, column = 0;
     for (Index c = 0; c < columns.cols(); ++c)
     {
-      Index r;
+      Index r = 0;
       const double size = done[c] ? 0.0 : columns.col(c).cwiseAbs().maxCoeff(&r);
       if (size > largest)
       {
