@@ -1,8 +1,9 @@
+#!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Reconstructs real volumes with reconstruct.sh and prints the table of Documentation/Results.md.
 
-    python3 Utilities/results.py OUTPUT [VOLUME=CONTROL_POINTS ...]
+    Utilities/results.py OUTPUT [VOLUME=CONTROL_POINTS ...]
 
 The volumes are the .vti files of TRIVARIATE_DATA_DIR (default: ../shared/data); every run leaves
 its results in a folder of OUTPUT.
