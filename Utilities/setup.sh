@@ -6,9 +6,10 @@ source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build_dir=${BUILD_DIR:-$source_dir/build}
 log=$build_dir/setup.log
 
-# paraview-dev does not bring what its own CMake files ask for, hence the long list.
+# paraview-dev does not bring what its own CMake files ask for, hence the long list. Clang is for the
+# fuzzer alone.
 packages=(
-  g++ cmake make
+  g++ cmake make clang-14 libclang-rt-14-dev
   paraview paraview-dev python3-paraview python3-numpy python3-h5py
   libeigen3-dev libhdf5-dev libgtest-dev libopenmpi-dev openmpi-bin python3-dev
   qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools
