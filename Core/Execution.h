@@ -28,9 +28,8 @@ struct Execution
   using Body = std::function<void(Index begin, Index end)>;
 
   /// Calls body on disjoint ranges that cover [0, n), in any order and on any threads.
-  std::function<void(Index n, const Body& body)> ParallelFor = [](Index n, const Body& body) {
-    body(0, n);
-  };
+  std::function<void(Index n, const Body& body)> ParallelFor = [](Index n, const Body& body)
+  { body(0, n); };
 
   /// Told the share of the work done, 0 to 1; called from the calling thread at least once a
   /// second; false stops the work.
@@ -49,8 +48,8 @@ struct Execution
   Execution Part(double from, double to) const
   {
     Execution part = *this;
-    part.Continue = [whole = this->Continue, from, to](
-                      double done) { return whole(from + (to - from) * done); };
+    part.Continue = [whole = this->Continue, from, to](double done)
+    { return whole(from + (to - from) * done); };
     return part;
   }
 };
