@@ -30,39 +30,44 @@ struct LocalKnotsHash
   std::size_t operator()(const LocalKnots& k) const { return HashKnots(k); }
 };
 
-/// Open addressing with linear probing; an erased entry leaves a tombstone until the table grows.
+/**
+ * Open addressing with linear probing over small slots; the functions themselves stand in the order
+ * of their insertion, near their neighbours. An erased entry stays as a tombstone until the table
+ * grows.
+ */
 class BlendingFunctionMap
 {
 public:
   /// The id stored for f, after storing `id` (>= 0) if there was none; and whether it was stored.
   std::pair<Index, bool> Insert(const BlendingFunction& f, Index id)
   {
-    if (2 * (this->Used + 1) > this->Slots.size())
+    if (2 * (this->Entries.size() + 1) > this->Slots.size())
     {
-      this->Grow(2 * this->Slots.size());
+      this->Rebuild(2 * this->Slots.size());
     }
     Slot& slot = this->Slots[this->Locate(f)];
-    if (slot.Id >= 0)
+    if (slot.Entry != Empty)
     {
-      return { slot.Id, false };
+      return { this->Entries[slot.Entry].Id, false };
     }
-    slot = { f, id };
-    ++this->Used;
+    slot = { TagOf(f), static_cast<std::int32_t>(this->Entries.size()) };
+    this->Entries.push_back({ f, id });
     return { id, true };
   }
 
   /// The id stored for f, or -1.
   Index Find(const BlendingFunction& f) const
   {
-    return std::max<Index>(-1, this->Slots[this->Locate(f)].Id);
+    const Slot& slot = this->Slots[this->Locate(f)];
+    return slot.Entry == Empty ? -1 : this->Entries[slot.Entry].Id;
   }
 
   void Erase(const BlendingFunction& f)
   {
-    Slot& slot = this->Slots[this->Locate(f)];
-    if (slot.Id >= 0)
+    const Slot& slot = this->Slots[this->Locate(f)];
+    if (slot.Entry != Empty)
     {
-      slot.Id = Erased;
+      this->Entries[slot.Entry].Id = Erased;
     }
   }
 
@@ -75,48 +80,69 @@ public:
     }
     if (size > this->Slots.size())
     {
-      this->Grow(size);
+      this->Rebuild(size);
     }
+    this->Entries.reserve(n);
   }
 
 private:
-  static constexpr Index Empty = -1, Erased = -2;
+  static constexpr std::int32_t Empty = -1;
+  static constexpr Index Erased = -1;
   struct Slot
   {
-    BlendingFunction Function{};
-    Index Id = Empty;
+    std::uint32_t Tag = 0; // of the function, so that few others are looked at
+    std::int32_t Entry = Empty;
   };
+  struct Entry
+  {
+    BlendingFunction Function;
+    Index Id;
+  };
+
+  static std::uint32_t TagOf(const BlendingFunction& f)
+  {
+    return static_cast<std::uint32_t>(
+      HashKnots(f[0]) * 31 + HashKnots(f[1]) * 17 + HashKnots(f[2]));
+  }
 
   // The slot of f, or the empty slot where it belongs.
   std::size_t Locate(const BlendingFunction& f) const
   {
     const std::size_t mask = this->Slots.size() - 1;
-    std::size_t at = (HashKnots(f[0]) * 31 + HashKnots(f[1]) * 17 + HashKnots(f[2])) & mask;
-    while (
-      this->Slots[at].Id == Erased || (this->Slots[at].Id >= 0 && this->Slots[at].Function != f))
+    const std::uint32_t tag = TagOf(f);
+    std::size_t at = tag & mask;
+    while (this->Slots[at].Entry != Empty && !this->Holds(this->Slots[at], tag, f))
     {
       at = (at + 1) & mask;
     }
     return at;
   }
 
-  void Grow(std::size_t size)
+  bool Holds(const Slot& slot, std::uint32_t tag, const BlendingFunction& f) const
   {
-    std::vector<Slot> old(size);
-    old.swap(this->Slots);
-    this->Used = 0;
-    for (const Slot& slot : old)
+    return slot.Tag == tag && this->Entries[slot.Entry].Id != Erased &&
+           this->Entries[slot.Entry].Function == f;
+  }
+
+  void Rebuild(std::size_t size)
+  {
+    std::vector<Entry> old;
+    old.reserve(size / 2);
+    old.swap(this->Entries);
+    this->Slots.assign(size, {});
+    for (const Entry& entry : old)
     {
-      if (slot.Id >= 0)
+      if (entry.Id != Erased)
       {
-        this->Slots[this->Locate(slot.Function)] = slot;
-        ++this->Used;
+        this->Slots[this->Locate(entry.Function)] = { TagOf(entry.Function),
+          static_cast<std::int32_t>(this->Entries.size()) };
+        this->Entries.push_back(entry);
       }
     }
   }
 
   std::vector<Slot> Slots = std::vector<Slot>(64);
-  std::size_t Used = 0; // with the tombstones
+  std::vector<Entry> Entries; // with the tombstones
 };
 }
 

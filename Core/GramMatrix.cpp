@@ -204,21 +204,25 @@ GramMatrix::GramMatrix(const TSpline& spline, const FunctionTable& table, const 
     {
       for (Index block = firstBlock; block < endBlock; ++block)
       {
-        for (Index i = block * BlockSize; i < std::min(n, (block + 1) * BlockSize); ++i)
+        const Index begin = block * BlockSize, end = std::min(n, begin + BlockSize);
+        for (Index i = begin; i < end; ++i)
         {
           this->Diagonal[i] = entry(i, i);
           this->Scale[i] = this->Diagonal[i] > 0.0 ? 1.0 / std::sqrt(this->Diagonal[i]) : 0.0;
-          const std::size_t before = columns[block].size();
-          tree.Query(SupportOf(spline.Functions[i]),
-            [&columns, block](Index j) { columns[block].push_back(static_cast<std::int32_t>(j)); });
-          this->RowBegin[i + 1] = static_cast<Index>(columns[block].size() - before);
         }
+        tree.QueryPairs(begin, end,
+          [this, &columns, block](Index i, Index j)
+          {
+            columns[block].push_back(static_cast<std::int32_t>(j));
+            ++this->RowBegin[i + 1];
+          });
       }
     });
   std::partial_sum(this->RowBegin.begin(), this->RowBegin.end(), this->RowBegin.begin());
   execution.Check(0.0);
 
   this->BlockBegin.resize(n);
+  this->DiagonalAt.resize(n);
   this->BlockEnd.resize(n);
   this->Columns.resize(this->RowBegin[n]);
   this->Values.resize(this->RowBegin[n]);
@@ -240,6 +244,7 @@ GramMatrix::GramMatrix(const TSpline& spline, const FunctionTable& table, const 
               static_cast<float>(entry(i, *column) * this->Scale[i] * this->Scale[*column]);
           }
           this->BlockBegin[i] = std::lower_bound(row, rowEnd, begin) - all;
+          this->DiagonalAt[i] = std::lower_bound(row, rowEnd, i) - all;
           this->BlockEnd[i] = std::lower_bound(row, rowEnd, end) - all;
         }
       }
@@ -247,14 +252,23 @@ GramMatrix::GramMatrix(const TSpline& spline, const FunctionTable& table, const 
 }
 
 //------------------------------------------------------------------------------
-double GramMatrix::MultiplyRow(Index i, const std::vector<double>& x) const
+double GramMatrix::Multiply(Index begin, Index end, const std::vector<double>& x) const
 {
-  double sum = 0.0;
-  for (Index at = this->RowBegin[i]; at < this->RowBegin[i + 1]; ++at)
+  // Four sums, for one would wait for each addition before the next.
+  double sum[4] = { 0.0, 0.0, 0.0, 0.0 };
+  Index at = begin;
+  for (; at + 4 <= end; at += 4)
   {
-    sum += this->Values[at] * x[this->Columns[at]];
+    for (int k = 0; k < 4; ++k)
+    {
+      sum[k] += this->Values[at + k] * x[this->Columns[at + k]];
+    }
   }
-  return sum;
+  for (; at < end; ++at)
+  {
+    sum[0] += this->Values[at] * x[this->Columns[at]];
+  }
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
 //------------------------------------------------------------------------------
@@ -263,21 +277,11 @@ void GramMatrix::Relax(
 {
   for (Index i = begin; i < end; ++i)
   {
-    double sum = r[i];
-    for (Index at = this->BlockBegin[i]; this->Columns[at] < i; ++at)
-    {
-      sum -= this->Values[at] * z[this->Columns[at]];
-    }
-    z[i] = sum;
+    z[i] = r[i] - this->Multiply(this->BlockBegin[i], this->DiagonalAt[i], z);
   }
   for (Index i = end - 1; i >= begin; --i)
   {
-    double sum = 0.0;
-    for (Index at = this->BlockEnd[i] - 1; this->Columns[at] > i; --at)
-    {
-      sum += this->Values[at] * z[this->Columns[at]];
-    }
-    z[i] -= sum;
+    z[i] -= this->Multiply(this->DiagonalAt[i] + 1, this->BlockEnd[i], z);
   }
 }
 
@@ -329,7 +333,7 @@ int GramMatrix::Solve(const std::vector<double>& b, double tolerance, int maximu
         double sum = 0.0;
         for (Index i = begin; i < end; ++i)
         {
-          ap[i] = this->MultiplyRow(i, p);
+          ap[i] = this->Multiply(this->RowBegin[i], this->RowBegin[i + 1], p);
           sum += p[i] * ap[i];
         }
         return sum;

@@ -49,13 +49,14 @@ public:
     std::vector<double>& x, const Execution& execution) const;
 
 private:
-  double MultiplyRow(Index i, const std::vector<double>& x) const;
+  /// The sum of Values times x at their columns over the entries [begin, end).
+  double Multiply(Index begin, Index end, const std::vector<double>& x) const;
 
   /// z = the symmetric Gauss-Seidel sweep from zero for A z = r within [begin, end).
   void Relax(const std::vector<double>& r, Index begin, Index end, std::vector<double>& z) const;
 
   std::vector<Index> RowBegin;
-  std::vector<Index> BlockBegin, BlockEnd; // the part of a row within its own block
+  std::vector<Index> BlockBegin, DiagonalAt, BlockEnd; // the part of a row within its own block
   std::vector<std::int32_t> Columns;
   std::vector<float> Values; // scaled: A_ij / sqrt(A_ii A_jj)
   std::vector<double> Diagonal;

@@ -59,44 +59,64 @@ std::vector<RefinementMark> DistinctMarks(
 }
 
 //------------------------------------------------------------------------------
+bool RefinementMarks::IsFull(Index size, Index maximum)
+{
+  return maximum - size <= maximum / 100;
+}
+
+//------------------------------------------------------------------------------
 bool RefinementMarks::Refine(std::vector<SplitGain> gains, Index maximum, TSpline& spline,
   std::unique_ptr<RefinementRule>& rule)
 {
   const Index size = spline.Size();
+  if (IsFull(size, maximum))
+  {
+    return false;
+  }
   const Index step = StepOf(size);
   const Index limit = std::min(maximum, size + step + step / 4);
   // Aim a little below the maximum, for a trial that exceeds it is lost.
   const Index wanted = std::min(size + step, maximum - maximum / 200) - size;
-  if (maximum - size <= maximum / 100)
-  {
-    return false; // near enough: a round for the last few functions is not worth its time
-  }
   // Up to four functions in line ask for the same face.
   KeepLargest(gains, 4 * wanted);
   const std::vector<RefinementMark> all = DistinctMarks(gains, spline, wanted);
-  auto count = static_cast<Index>(
-    std::min<double>(all.size(), std::max(1.0, wanted / this->FunctionsPerMark)));
-  while (count > 0)
+  const auto scaled = [&all](double count)
+  { return static_cast<Index>(std::clamp<double>(count, 1.0, static_cast<double>(all.size()))); };
+  Index count = all.empty() ? 0 : scaled(wanted / this->FunctionsPerMark);
+  TSpline best;
+  std::unique_ptr<RefinementRule> bestRule;
+  for (Index fits = 0; count > fits;)
   {
-    const std::vector<RefinementMark> marks(all.begin(), all.begin() + count);
     TSpline trial = spline;
     std::unique_ptr<RefinementRule> trialRule = rule->Clone();
-    trialRule->Refine(trial, marks);
+    trialRule->Refine(trial, { all.begin(), all.begin() + count });
     const Index grown = trial.Size() - size;
     if (grown > 0)
     {
       this->FunctionsPerMark = static_cast<double>(grown) / count;
     }
     // A single mark may grow more than a step (never more than the maximum allows).
-    if (trial.Size() <= (count == 1 ? maximum : limit))
+    if (trial.Size() > (count == 1 ? maximum : limit))
     {
-      spline = std::move(trial);
-      rule = std::move(trialRule);
-      return grown > 0;
+      count = fits > 0 ? 0 : std::min(count - 1, scaled(0.99 * count * wanted / grown));
+      continue;
     }
-    count =
-      std::min(count - 1, std::max<Index>(1, static_cast<Index>(0.95 * count * wanted / grown)));
+    fits = count;
+    best = std::move(trial);
+    bestRule = std::move(trialRule);
+    // Marks are cheap, rounds are not: the step to the maximum is made in one.
+    if (grown == 0 || size + wanted < maximum - maximum / 200 || IsFull(best.Size(), maximum))
+    {
+      break;
+    }
+    count = scaled(count * static_cast<double>(wanted) / grown);
   }
-  return false;
+  if (best.Size() <= size)
+  {
+    return false;
+  }
+  spline = std::move(best);
+  rule = std::move(bestRule);
+  return true;
 }
 }

@@ -21,6 +21,9 @@ public:
   bool Refine(std::vector<SplitGain> gains, Index maximum, TSpline& spline,
     std::unique_ptr<RefinementRule>& rule);
 
+  /// Whether so few functions are left to the maximum that a step for them is not worth its time.
+  static bool IsFull(Index size, Index maximum);
+
 private:
   double FunctionsPerMark = 1.0;
 };

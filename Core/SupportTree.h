@@ -65,6 +65,38 @@ public:
     }
   }
 
+  /**
+   * Calls visit(i, j) for every pair of functions with overlapping supports, i in [begin, end), all
+   * j of one i after the other. One descent serves a cluster of consecutive functions.
+   */
+  template <typename Visit>
+  void QueryPairs(Index begin, Index end, const Visit& visit) const
+  {
+    constexpr Index clusterSize = 16;
+    std::vector<Index> candidates;
+    for (Index first = begin; first < end; first += clusterSize)
+    {
+      const Index last = std::min(end, first + clusterSize);
+      IndexBox cluster = this->Leaves[first];
+      for (Index i = first + 1; i < last; ++i)
+      {
+        cluster = Join(cluster, this->Leaves[i]);
+      }
+      candidates.clear();
+      this->Query(cluster, [&candidates](Index j) { candidates.push_back(j); });
+      for (Index i = first; i < last; ++i)
+      {
+        for (const Index j : candidates)
+        {
+          if (this->Leaves[i].Overlaps(this->Leaves[j]))
+          {
+            visit(i, j);
+          }
+        }
+      }
+    }
+  }
+
 private:
   const IndexBox& Box(Index n, const IndexBox& nothing) const
   {
