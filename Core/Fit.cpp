@@ -270,21 +270,13 @@ private:
   void DropEmptyFunctions()
   {
     TSpline& spline = this->Result.Spline;
-    Index kept = 0;
+    std::vector<char> empty(spline.Functions.size());
     for (Index i = 0; i < spline.Size(); ++i)
     {
-      if (this->System.HasVoxel(i))
-      {
-        spline.Functions[kept] = spline.Functions[i];
-        spline.Weights[kept] = spline.Weights[i];
-        std::copy_n(spline.ControlPoint(i), spline.Components, spline.ControlPoint(kept));
-        ++kept;
-      }
+      empty[i] = !this->System.HasVoxel(i);
     }
-    spline.Functions.resize(kept);
-    spline.Weights.resize(kept);
-    spline.ControlPoints.resize(kept * spline.Components);
-    this->Result.Rounds.back().ControlPoints = kept;
+    RemoveFunctions(spline, empty);
+    this->Result.Rounds.back().ControlPoints = spline.Size();
   }
 
   // Corrects the control points by what the normal equations make of the residual.

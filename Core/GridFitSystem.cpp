@@ -19,6 +19,37 @@ Array3 TakeMoments(const Axes& axes, Array3 values, const Execution& execution)
   }
   return values;
 }
+
+double InnerProduct(const std::vector<double>& a, const std::vector<double>& b)
+{
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
+// Sums the residual's moments against all factors of a function but that of direction(id), which
+// leaves a line of numbers in that direction: visit(id, line), in parallel over the functions.
+template <typename Direction, typename Visitor>
+void VisitLines(const Axes& axes, const Residual& residual,
+  const std::vector<LevelFunction>& functions, const std::vector<LevelGroup>& groups,
+  const Direction& direction, const Visitor& visit, const Execution& execution)
+{
+  VisitMoments(
+    axes, residual.Moments, residual.Level, groups,
+    [&](const LevelGroup& group, const Array3& moments)
+    {
+      execution.ParallelFor(static_cast<Index>(group.Functions.size()),
+        [&](Index begin, Index end)
+        {
+          std::vector<double> line;
+          for (Index m = begin; m < end; ++m)
+          {
+            const Index id = group.Functions[m];
+            ContractLine(moments, functions[id], direction(id), line);
+            visit(id, line);
+          }
+        });
+    },
+    execution);
+}
 }
 
 //------------------------------------------------------------------------------
@@ -193,28 +224,10 @@ const Array3& GridFitSystem::SampleMoments(int component)
 std::vector<double> GridFitSystem::Gradient(const Residual& residual) const
 {
   std::vector<double> gradient(this->Expansions.size());
-  VisitMoments(
-    this->Grid, residual.Moments, residual.Level, this->Groups,
-    [&](const LevelGroup& group, const Array3& moments)
-    {
-      this->Run.ParallelFor(static_cast<Index>(group.Functions.size()),
-        [&](Index begin, Index end)
-        {
-          std::vector<double> line;
-          for (Index m = begin; m < end; ++m)
-          {
-            const Index id = group.Functions[m];
-            const LevelFunction& f = this->Expansions[id];
-            ContractLine(moments, f, 0, line);
-            double sum = 0.0;
-            for (std::size_t q = 0; q < line.size(); ++q)
-            {
-              sum += f.Factors[0]->Coefficients[q] * line[q];
-            }
-            gradient[id] = sum;
-          }
-        });
-    },
+  VisitLines(
+    this->Grid, residual, this->Expansions, this->Groups, [](Index) { return 0; },
+    [&](Index id, const std::vector<double>& line)
+    { gradient[id] = InnerProduct(this->Expansions[id].Factors[0]->Coefficients, line); },
     this->Run);
   return gradient;
 }
@@ -246,36 +259,22 @@ void GridFitSystem::AddGains(
     }
   }
   gains.resize(count, { 0, 0, 0, 0.0 });
-  const std::vector<LevelGroup> groups = GroupByLevel(requests);
-  VisitMoments(
-    this->Grid, residual.Moments, residual.Level, groups,
-    [&](const LevelGroup& group, const Array3& moments)
+  VisitLines(
+    this->Grid, residual, requests, GroupByLevel(requests),
+    [&](Index id) { return owners[id].second; },
+    [&](Index id, const std::vector<double>& line)
     {
-      this->Run.ParallelFor(static_cast<Index>(group.Functions.size()),
-        [&](Index begin, Index end)
-        {
-          std::vector<double> line;
-          for (Index m = begin; m < end; ++m)
-          {
-            const Index id = group.Functions[m];
-            const auto [i, a] = owners[id];
-            ContractLine(moments, requests[id], a, line);
-            const double norm2 = this->Functions.Factor(i, (a + 1) % 3).SquaredNorm *
-                                 this->Functions.Factor(i, (a + 2) % 3).SquaredNorm;
-            const auto& splits = this->Functions.Factor(i, a).Splits;
-            for (std::size_t s = 0; s < splits.size(); ++s)
-            {
-              double sum = 0.0;
-              for (std::size_t q = 0; q < line.size(); ++q)
-              {
-                sum += splits[s].Gain.Coefficients[q] * line[q];
-              }
-              SplitGain& gain = gains[firstGain[id] + s];
-              gain = { i, a, splits[s].Knot,
-                gain.SquaredError + (norm2 > 0.0 ? factor * sum * sum / norm2 : 0.0) };
-            }
-          }
-        });
+      const auto [i, a] = owners[id];
+      const double norm2 = this->Functions.Factor(i, (a + 1) % 3).SquaredNorm *
+                           this->Functions.Factor(i, (a + 2) % 3).SquaredNorm;
+      const auto& splits = this->Functions.Factor(i, a).Splits;
+      for (std::size_t s = 0; s < splits.size(); ++s)
+      {
+        const double sum = InnerProduct(splits[s].Gain.Coefficients, line);
+        SplitGain& gain = gains[firstGain[id] + s];
+        gain = { i, a, splits[s].Knot,
+          gain.SquaredError + (norm2 > 0.0 ? factor * sum * sum / norm2 : 0.0) };
+      }
     },
     this->Run);
 }

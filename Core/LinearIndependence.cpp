@@ -104,24 +104,6 @@ void Eliminate(LinearDependence& target, const LinearDependence& other, std::siz
     target.Coefficients.push_back(coefficient);
   }
 }
-
-void RemoveFunctions(TSpline& spline, const std::vector<char>& removed)
-{
-  Index kept = 0;
-  for (Index i = 0; i < spline.Size(); ++i)
-  {
-    if (!removed[i])
-    {
-      spline.Functions[kept] = spline.Functions[i];
-      spline.Weights[kept] = spline.Weights[i];
-      std::copy_n(spline.ControlPoint(i), spline.Components, spline.ControlPoint(kept));
-      ++kept;
-    }
-  }
-  spline.Functions.resize(kept);
-  spline.Weights.resize(kept);
-  spline.ControlPoints.resize(kept * spline.Components);
-}
 }
 
 //------------------------------------------------------------------------------

@@ -43,7 +43,7 @@ std::string Validate(const TSpline& spline)
   {
     const KnotLine& line = spline.KnotLines[a];
     if (line.size() < 2 || !AllFinite(line) ||
-      std::adjacent_find(line.begin(), line.end(), std::greater_equal<>()) != line.end())
+        std::adjacent_find(line.begin(), line.end(), std::greater_equal<>()) != line.end())
     {
       fault << "The knot line of direction " << DirectionNames[a]
             << " is not a strictly increasing sequence of at least two finite numbers.";
@@ -53,13 +53,14 @@ std::string Validate(const TSpline& spline)
   const std::size_t n = spline.Functions.size();
   if (spline.Components < 3)
   {
-    fault << "A control point has " << spline.Components << " components; at least X, Y, Z are needed.";
+    fault << "A control point has " << spline.Components
+          << " components; at least X, Y, Z are needed.";
     return fault.str();
   }
   if (spline.Weights.size() != n || spline.ControlPoints.size() != n * spline.Components)
   {
-    fault << "There are " << n << " blending functions, but " << spline.Weights.size() << " weights and "
-          << spline.ControlPoints.size() << " control point components.";
+    fault << "There are " << n << " blending functions, but " << spline.Weights.size()
+          << " weights and " << spline.ControlPoints.size() << " control point components.";
     return fault.str();
   }
   for (std::size_t i = 0; i < n; ++i)
@@ -132,5 +133,24 @@ KnotLine MakeUniformKnotLine(double a, double b, int n)
     line[k] = a + (b - a) * k / n;
   }
   return line;
+}
+
+//------------------------------------------------------------------------------
+void RemoveFunctions(TSpline& spline, const std::vector<char>& removed)
+{
+  Index kept = 0;
+  for (Index i = 0; i < spline.Size(); ++i)
+  {
+    if (!removed[i])
+    {
+      spline.Functions[kept] = spline.Functions[i];
+      spline.Weights[kept] = spline.Weights[i];
+      std::copy_n(spline.ControlPoint(i), spline.Components, spline.ControlPoint(kept));
+      ++kept;
+    }
+  }
+  spline.Functions.resize(kept);
+  spline.Weights.resize(kept);
+  spline.ControlPoints.resize(kept * spline.Components);
 }
 }

@@ -39,7 +39,8 @@ struct TSpline
   std::vector<BlendingFunction> Functions;
   std::vector<double> Weights; ///< one a function, > 0
   int Components = 0;          ///< numbers a control point: X, Y, Z, then the attributes
-  std::vector<double> ControlPoints; ///< Functions.size() rows of Components numbers, p_i of eq. (9)
+  std::vector<double>
+    ControlPoints; ///< Functions.size() rows of Components numbers, p_i of eq. (9)
 
   Index Size() const { return static_cast<Index>(this->Functions.size()); }
 
@@ -67,6 +68,10 @@ std::string Validate(const TSpline& spline);
  */
 TSpline MakeTensorProduct(
   const std::array<KnotLine, 3>& lines, const std::array<int, 3>& stride, int attributes);
+
+/// Drops the functions i with removed[i] != 0; the others keep their order, weights and control
+/// points.
+void RemoveFunctions(TSpline& spline, const std::vector<char>& removed);
 
 /// n + 1 equally spaced knots from a to b.
 KnotLine MakeUniformKnotLine(double a, double b, int n);
