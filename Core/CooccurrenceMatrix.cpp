@@ -64,7 +64,9 @@ CooccurrenceUnits::CooccurrenceUnits(Index pairs)
 //------------------------------------------------------------------------------
 std::int64_t CooccurrenceUnits::NLogN(Index n) const
 {
-  return n > 1 ? std::llround(n * std::log2(static_cast<double>(n)) * this->Logarithm) : 0;
+  // More exact than double: differences of the sums are to be exact to the unit.
+  const long double exact = n;
+  return n > 1 ? std::llround(exact * std::log2(exact) * this->Logarithm) : 0;
 }
 
 //------------------------------------------------------------------------------
@@ -96,6 +98,7 @@ CooccurrenceSums SumsOf(const CooccurrenceMatrix& matrix)
   }
   sums.Pairs /= 2;
   sums.Units = CooccurrenceUnits(sums.Pairs);
+  sums.TotalLogarithm = sums.Units.NLogN(2 * sums.Pairs);
 
   std::vector<Index> bySum(2 * levels), byDifference(levels), byLevel(levels);
   for (int i = 0; i < levels; ++i)

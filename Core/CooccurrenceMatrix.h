@@ -89,9 +89,9 @@ struct CooccurrenceSums
   std::array<std::int64_t, 5> Inverses = {};
   std::int64_t Squares = 0;      ///< of the counts of the (symmetric) matrix
   std::int64_t LargestCount = 0; ///< of the matrix
-  /// Sums of n log2 n in Units.Logarithm, n the number of pairs with the same {i, j}; with the
-  /// same s; with the same d; and the number of times that a level occurs in a pair.
-  std::int64_t JointLogarithms = 0, SumLogarithms = 0, DifferenceLogarithms = 0,
+  /// n log2 n in Units.Logarithm: for n = 2 N, and summed over n, the number of pairs with the same
+  /// {i, j}; with the same s; with the same d; the number of times that a level occurs in a pair.
+  std::int64_t TotalLogarithm = 0, JointLogarithms = 0, SumLogarithms = 0, DifferenceLogarithms = 0,
                LevelLogarithms = 0;
 };
 

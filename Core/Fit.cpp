@@ -24,6 +24,9 @@ constexpr double RoundTolerance = 1e-2;
 constexpr int RoundIterations = 20;
 constexpr double FinalTolerance = 1e-4;
 constexpr int FinalIterations = 40;
+// Functions at the edge of a mask have few voxels to tell them apart: on noise 40 iterations end up
+// to 3 % above the least-squares error, 400 up to 1 %, for about a seventh more of the fit's time.
+constexpr int FinalIterationsUnderMask = 400;
 
 // The smallest root mean square, as a share of the range, that rounding lets the fit tell from
 // zero.
@@ -162,7 +165,8 @@ public:
       if (isGood || !this->RefineOnce(rule))
       {
         this->DropDependentFunctions();
-        this->Solve(FinalTolerance, FinalIterations);
+        this->Solve(
+          FinalTolerance, this->Samples.Mask ? FinalIterationsUnderMask : FinalIterations);
         this->Result.Rounds.pop_back();
         this->Measure(true);
         // The last solve lowers the mean square, but it can raise the largest error again.

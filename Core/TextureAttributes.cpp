@@ -189,19 +189,22 @@ TextureAttributeValues ComputeTextureAttributes(const CooccurrenceSums& sums)
   }
   set(A::Correlation, (s.Second - contrast) / (s.Second + contrast));
 
-  // -sum (n / N) log2(n / N) = log2 N - (sum n log2 n) / N; a pair of different levels has two
-  // entries of the matrix with half of its probability each.
-  const double logarithmUnit = inverse / sums.Units.Logarithm;
-  const double bits = std::log2(pairs);
-  const double joint =
-    bits + 1.0 - inverse * sums.EqualPairs - logarithmUnit * sums.JointLogarithms;
-  const double level = bits + 1.0 - 0.5 * logarithmUnit * sums.LevelLogarithms;
-  set(A::JointEntropy, joint);
-  set(A::SumEntropy, std::max(0.0, bits - logarithmUnit * sums.SumLogarithms));
-  set(A::DifferenceEntropy, std::max(0.0, bits - logarithmUnit * sums.DifferenceLogarithms));
+  // -sum (n / N) log2(n / N) = (N log2 N - sum n log2 n) / N; a pair of different levels has two
+  // entries of the matrix with half of its probability each. All in integers until the division.
+  const std::int64_t unit = static_cast<std::int64_t>(sums.Units.Logarithm);
+  const std::int64_t all = sums.TotalLogarithm, pairBits = 2 * sums.Pairs * unit,
+                     equalBits = 2 * sums.EqualPairs * unit;
+  const double entropyUnit = 0.5 * inverse / sums.Units.Logarithm;
+  const auto entropy = [entropyUnit](std::int64_t value)
+  { return std::max(0.0, entropyUnit * value); };
+  const double level = entropy(all - sums.LevelLogarithms);
+  set(A::JointEntropy, entropy(all - equalBits - 2 * sums.JointLogarithms));
+  set(A::SumEntropy, entropy(all - pairBits - 2 * sums.SumLogarithms));
+  set(A::DifferenceEntropy, entropy(all - pairBits - 2 * sums.DifferenceLogarithms));
+  const double information =
+    entropy(all + equalBits + 2 * (sums.JointLogarithms - sums.LevelLogarithms));
   // Less is rounding: i and j are independent. The square root of f13 would make much of it.
   constexpr double leastInformation = 1e-13;
-  const double information = 2.0 * level - joint;
   if (information > leastInformation)
   {
     set(A::InformationCorrelation1, -information / level);

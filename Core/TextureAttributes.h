@@ -40,12 +40,11 @@
  *   MaximalCorrelationCoefficient      f14     second singular value of
  *                                              p(i, j) / sqrt(p(i) p(j))        0 .. 1
  *
- * R = 2 (G - 1) is the range of s. The bounds hold for every symmetric matrix of G levels; all but
- * those of a variance of a variance's kind (0) are attained. The matrix being symmetric, the two
- * entropies HXY1 and HXY2 of f12 and f13 are both 2 H(i), exactly. A matrix with one level only (or
- * without any pair) has the value 0 / 0 for three of them: there the correlations f3 and f14 are 1,
- * the information correlations f12 and f13 are 0, as in PyRadiomics; without pairs all else is as
- * if the voxels had one level.
+ * R = 2 (G - 1) is the range of s. The bounds hold for every symmetric matrix of G levels, and
+ * every one is attained. The matrix being symmetric, the entropies HXY1 and HXY2 of f12 and f13 are
+ * both 2 H(i), exactly. A matrix with one level only has the value 0 / 0 for four attributes: there
+ * the correlations f3 and f14 are 1, the information correlations f12 and f13 are 0, as in
+ * PyRadiomics. A matrix without any pair has the attributes of one with the lowest level only.
  */
 #ifndef trivariate_TextureAttributes_h
 #define trivariate_TextureAttributes_h

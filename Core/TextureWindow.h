@@ -39,9 +39,9 @@ struct TextureOptions
    * Over the directions e (unit vectors), XX is the mean of a weighted by e_x^2 less the plain mean
    * (how much larger a is along x), XY the sum of a e_x e_y divided by that of |e_x e_y| (how much
    * larger a is along the diagonals x = y than along x = -y). Six numbers instead of the 13 that
-   * they are made of: less memory, and averages instead of single directions' noise. A
-   * texture that only has axes of order four or three (a cubic lattice) has the tensor zero, as all
-   * that it would take to see it rotated is of higher order.
+   * they are made of: less memory, and averages instead of single directions' noise. Layers,
+   * fibres and grains are told apart by it however they lie, all but textures that are alike along
+   * three perpendicular axes (a cubic lattice, as its tensor is zero).
    */
   bool DirectionResolved = false;
 };

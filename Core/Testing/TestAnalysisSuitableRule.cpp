@@ -4,6 +4,7 @@
 #include "DualCompatibility.h"
 #include "RandomRefinement.h"
 #include "Rank.h"
+#include "RefinementShapes.h"
 
 #include <gtest/gtest.h>
 
@@ -15,24 +16,6 @@ using namespace trivariate;
 
 namespace
 {
-struct Shape
-{
-  std::array<int, 3> RootCells, Depth;
-};
-
-// Cubes, thin slabs, rods, directions with less room or none, single cells.
-const std::vector<Shape> Shapes = {
-  { { 3, 3, 3 }, { 3, 3, 3 } },
-  { { 5, 4, 3 }, { 2, 2, 2 } },
-  { { 4, 4, 4 }, { 3, 3, 1 } },
-  { { 6, 5, 1 }, { 2, 3, 0 } },
-  { { 3, 1, 4 }, { 1, 4, 2 } },
-  { { 7, 1, 1 }, { 4, 0, 1 } },
-  { { 1, 1, 1 }, { 4, 4, 4 } },
-  { { 2, 6, 2 }, { 0, 3, 3 } },
-  { { 4, 2, 3 }, { 4, 1, 0 } },
-};
-
 double Scale(const TSpline& spline)
 {
   double scale = 1.0;
@@ -204,30 +187,7 @@ TEST(AnalysisSuitableRule, EndsInTheFinestTensorProduct)
   {
     TSpline spline = RandomTensorProduct(shape.RootCells, shape.Depth, random);
     const auto rule = MakeAnalysisSuitableRule(spline);
-    const auto everywhere = [&spline]()
-    {
-      std::vector<RefinementMark> marks;
-      for (Index i = 0; i < spline.Size(); ++i)
-      {
-        for (int a = 0; a < 3; ++a)
-        {
-          const LocalKnots& k = spline.Functions[i][a];
-          for (int s = 0; s < 4; ++s)
-          {
-            const std::int32_t knot = DyadicMiddle(k[s], k[s + 1]);
-            if (knot >= 0)
-            {
-              marks.push_back({ i, a, knot });
-            }
-          }
-        }
-      }
-      return marks;
-    };
-    for (auto marks = everywhere(); !marks.empty(); marks = everywhere())
-    {
-      rule->Refine(spline, marks);
-    }
+    RefineToTheEnd(spline, *rule);
     const TSpline finest = MakeTensorProduct(spline.KnotLines, { 1, 1, 1 }, 0);
     EXPECT_EQ(spline.Functions, finest.Functions);
     for (Index i = 0; i < finest.Size(); ++i)

@@ -37,6 +37,34 @@ double LargestError(const TSpline& spline, const Volume& volume)
   return largest;
 }
 
+// The smallest root mean square error that the spline's functions can have over the voxels that
+// count, as a share of the samples' range, by dense least squares.
+double BestRms(const TSpline& spline, const Volume& volume)
+{
+  std::vector<Index> voxels;
+  for (Index i = 0; i < volume.Count(); ++i)
+  {
+    if (volume.Mask.empty() || volume.Mask[i])
+    {
+      voxels.push_back(i);
+    }
+  }
+  Eigen::MatrixXd collocation(voxels.size(), spline.Size());
+  Eigen::VectorXd samples(voxels.size());
+  for (std::size_t row = 0; row < voxels.size(); ++row)
+  {
+    samples[row] = volume.Values[voxels[row]];
+    for (Index f = 0; f < spline.Size(); ++f)
+    {
+      collocation(row, f) = ValueOf(spline, f, volume.Voxel(voxels[row]));
+    }
+  }
+  const Eigen::VectorXd best =
+    collocation * collocation.completeOrthogonalDecomposition().solve(samples);
+  return (best - samples).norm() / std::sqrt(double(voxels.size())) /
+         (samples.maxCoeff() - samples.minCoeff());
+}
+
 // Sound, X, Y, Z are the parameters, the denominator is one, and the last round tells the truth.
 void CheckResult(const FitResult& result, const Volume& volume, unsigned seed = 0)
 {
@@ -284,46 +312,24 @@ TEST(Fit, GivesIndependentFunctions)
   EXPECT_LE(basis.Rounds.back().Rms, 1.01 * dependent.Rounds.back().Rms);
 }
 
-// No fit with the same functions is better: the gradient vanishes at the final control points.
+// No fit with the same functions is better: the gradient vanishes at the final control points. Few
+// voxels a function, as in noise at the edge of a mask, is what the iterations find hardest.
 TEST(Fit, IsTheLeastSquaresFitOfItsFunctions)
 {
   for (const Refinement rule : Rules)
   {
-    for (const bool masked : { false, true })
+    for (unsigned seed = 0; seed < 8; ++seed)
     {
-      std::mt19937 random(8);
-      Volume volume({ 12, 14, 11 }, { Noise(2) });
-      if (masked)
+      std::mt19937 random(seed);
+      Volume volume({ 18, 20, 17 }, { Noise(seed) });
+      if (seed > 0)
       {
         volume.CountOnlyABlob(random);
       }
       const FitResult result = FitGrid(volume.Samples(), Options(rule, 300));
-      const TSpline& spline = result.Spline;
-      Eigen::MatrixXd collocation = Eigen::MatrixXd::Zero(volume.Count(), spline.Size());
-      Eigen::VectorXd samples = Eigen::VectorXd::Zero(volume.Count());
-      Index voxels = 0;
-      for (Index i = 0; i < volume.Count(); ++i)
-      {
-        if (!masked || volume.Mask[i])
-        {
-          samples[i] = volume.Values[i];
-          ++voxels;
-          for (Index f = 0; f < spline.Size(); ++f)
-          {
-            collocation(i, f) = ValueOf(spline, f, volume.Voxel(i));
-          }
-        }
-      }
-      const Eigen::VectorXd best =
-        collocation * collocation.completeOrthogonalDecomposition().solve(samples);
-      const double rms = (best - samples).norm() / std::sqrt(double(voxels));
-      const double reached = ErrorAtVoxels(spline, volume).Rms *
-                             (*std::max_element(samples.data(), samples.data() + samples.size()) -
-                               *std::min_element(samples.data(), samples.data() + samples.size()));
-      EXPECT_GE(reached, rms * (1.0 - 1e-6));
-      // Few voxels a function, here and there none, is what the iterations find hardest.
-      EXPECT_LE(reached, rms * (masked ? 1.1 : 1.01))
-        << "rule " << int(rule) << ", mask " << masked;
+      const double gap = result.Rounds.back().Rms / BestRms(result.Spline, volume) - 1.0;
+      EXPECT_GE(gap, -1e-6);
+      EXPECT_LE(gap, 0.012) << "rule " << int(rule) << ", seed " << seed;
     }
   }
 }

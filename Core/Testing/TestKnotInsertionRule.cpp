@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "KnotFaces.h"
 #include "RandomRefinement.h"
+#include "RefinementShapes.h"
 
 #include <gtest/gtest.h>
 
@@ -12,23 +13,6 @@ using namespace trivariate;
 
 namespace
 {
-struct Shape
-{
-  std::array<int, 3> RootCells, Depth;
-};
-
-// Cubes, slabs, rods, directions with less room or none, single cells.
-const std::vector<Shape> Shapes = {
-  { { 3, 3, 3 }, { 3, 3, 3 } },
-  { { 4, 5, 3 }, { 3, 2, 4 } },
-  { { 4, 4, 4 }, { 3, 3, 1 } },
-  { { 6, 5, 1 }, { 2, 3, 0 } },
-  { { 3, 1, 4 }, { 1, 4, 2 } },
-  { { 7, 1, 1 }, { 4, 0, 1 } },
-  { { 1, 1, 1 }, { 4, 4, 4 } },
-  { { 2, 6, 2 }, { 0, 3, 3 } },
-};
-
 // A tensor product whose attributes are random coefficients and a random polynomial.
 TSpline RandomRoot(const Shape& shape, const TricubicPolynomial& polynomial, std::mt19937& random)
 {
@@ -341,30 +325,7 @@ TEST(KnotInsertionRule, EndsInTheFinestTensorProduct)
   std::mt19937 random(1);
   TSpline spline = RandomTensorProduct({ 2, 3, 1 }, { 1, 0, 2 }, random);
   const auto rule = MakeKnotInsertionRule(spline);
-  const auto everywhere = [&spline]()
-  {
-    std::vector<RefinementMark> marks;
-    for (Index i = 0; i < spline.Size(); ++i)
-    {
-      for (int a = 0; a < 3; ++a)
-      {
-        const LocalKnots& k = spline.Functions[i][a];
-        for (int s = 0; s < 4; ++s)
-        {
-          const std::int32_t knot = DyadicMiddle(k[s], k[s + 1]);
-          if (knot >= 0)
-          {
-            marks.push_back({ i, a, knot });
-          }
-        }
-      }
-    }
-    return marks;
-  };
-  for (auto marks = everywhere(); !marks.empty(); marks = everywhere())
-  {
-    rule->Refine(spline, marks);
-  }
+  RefineToTheEnd(spline, *rule);
   TSpline finest = MakeTensorProduct(spline.KnotLines, { 1, 1, 1 }, 0);
   ASSERT_EQ(spline.Size(), finest.Size());
   std::sort(finest.Functions.begin(), finest.Functions.end());
