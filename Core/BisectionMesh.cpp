@@ -9,9 +9,6 @@ namespace trivariate
 {
 namespace
 {
-constexpr int MaximumDepth = 20;
-constexpr std::int32_t MaximumKnots = 1 << 28;
-
 // The integer below and above a / b, b > 0.
 std::int32_t FloorOf(std::int32_t a, std::int32_t b)
 {
@@ -362,59 +359,5 @@ std::vector<BlendingFunction> BisectionMesh::Functions() const
     functions.push_back(this->FunctionAt(anchor));
   }
   return functions;
-}
-
-//------------------------------------------------------------------------------
-std::vector<IndexBox> BisectionMesh::Recover(const TSpline& spline, const GridIndex& rootCells)
-{
-  std::array<int, 3> depth{ 0, 0, 0 };
-  for (int a = 0; a < 3; ++a)
-  {
-    const auto intervals = static_cast<Index>(spline.KnotLines[a].size()) - 1;
-    while (depth[a] < MaximumDepth && Index(rootCells[a]) << depth[a] < intervals)
-    {
-      ++depth[a];
-    }
-    if (Index(rootCells[a]) << depth[a] != intervals)
-    {
-      return {};
-    }
-  }
-  BisectionMesh mesh(rootCells, depth, Closure::Narrow);
-  std::unordered_set<Index> centres;
-  for (const BlendingFunction& f : spline.Functions)
-  {
-    centres.insert(mesh.AnchorOf({ f[0][2], f[1][2], f[2][2] }));
-  }
-  std::vector<GridIndex> corners; // of cells that may have been halved
-  for (const IndexBox& root : mesh.Cells())
-  {
-    corners.push_back(root.Low);
-  }
-  while (!corners.empty())
-  {
-    const GridIndex corner = corners.back();
-    corners.pop_back();
-    const Cell cell = mesh.Find(corner);
-    const int a = mesh.Levels[cell.Level].Direction;
-    if (a < 0)
-    {
-      continue;
-    }
-    const auto vertices = mesh.NewVertices(corner, cell.Level);
-    if (std::all_of(vertices.begin(), vertices.end(),
-          [&](const GridIndex& v) { return centres.count(mesh.AnchorOf(v)) != 0; }))
-    {
-      mesh.Halve(corner, cell);
-      GridIndex upper = corner;
-      upper[a] = vertices[0][a];
-      corners.push_back(corner);
-      corners.push_back(upper);
-    }
-  }
-  std::vector<BlendingFunction> given = spline.Functions, found = mesh.Functions();
-  std::sort(given.begin(), given.end());
-  std::sort(found.begin(), found.end());
-  return given == found ? mesh.Cells() : std::vector<IndexBox>();
 }
 }

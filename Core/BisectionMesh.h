@@ -55,8 +55,12 @@ public:
     int Level;
   };
 
-  /// `rootCells[a]` cells in direction a, each of which can be halved `depth[a]` times (0 to 20);
-  /// std::invalid_argument if that makes more than 2^28 knots in a direction or no cell.
+  /// How often a cell can be halved in a direction, and how many spans a direction can have.
+  static constexpr int MaximumDepth = 20;
+  static constexpr std::int32_t MaximumKnots = 1 << 28;
+
+  /// `rootCells[a]` cells in direction a, each of which can be halved `depth[a]` times;
+  /// std::invalid_argument if that exceeds a limit or makes no cell.
   BisectionMesh(const GridIndex& rootCells, const std::array<int, 3>& depth, Closure closure);
 
   /// The cell that holds the unit cell `at`. With an earlier value of CountNodes(): the cell that
@@ -97,8 +101,10 @@ public:
   /**
    * The cells of the mesh that belongs to an analysis-suitable T-spline of which only the functions
    * are known (from a file, say). A cell counts as halved if the four corners of the face between
-   * its halves carry functions. Empty if the spline's functions are not just those of such a mesh,
-   * or if the root cells do not cut each knot line into spans of a power of two.
+   * its halves carry functions. Empty if the spline's functions are not just those of such a mesh.
+   * Root cells are equally wide, and knots that no function has may be missing from the lines; or,
+   * with knots at other distances, they have equally many intervals of the line each. In any case
+   * their halves end at knots. O(n log n).
    */
   static std::vector<IndexBox> Recover(const TSpline& spline, const GridIndex& rootCells);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -231,6 +232,46 @@ Tessellation TessellateVolume(const BezierMesh& mesh, int subdivisions, const Ex
     }
   }
   return Connect(lattice, cells, row * layer, corners, execution);
+}
+
+//------------------------------------------------------------------------------
+Tessellation TessellateBoxes(
+  const std::array<KnotLine, 3>& lines, const std::vector<IndexBox>& boxes)
+{
+  // VTK's order of the corners: round the low face in w, then round the high one.
+  std::vector<GridIndex> corners;
+  for (const IndexBox& box : boxes)
+  {
+    for (const std::int32_t w : { box.Low[2], box.High[2] })
+    {
+      corners.push_back({ box.Low[0], box.Low[1], w });
+      corners.push_back({ box.High[0], box.Low[1], w });
+      corners.push_back({ box.High[0], box.High[1], w });
+      corners.push_back({ box.Low[0], box.High[1], w });
+    }
+  }
+  const auto isBefore = [](const GridIndex& a, const GridIndex& b)
+  { return std::lexicographical_compare(a.rbegin(), a.rend(), b.rbegin(), b.rend()); };
+  std::vector<GridIndex> points = corners;
+  std::sort(points.begin(), points.end(), isBefore);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+
+  Tessellation result;
+  for (const GridIndex& point : points)
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      result.Parameters.push_back(lines[a][point[a]]);
+    }
+  }
+  for (const GridIndex& corner : corners)
+  {
+    result.Elements.push_back(
+      std::lower_bound(points.begin(), points.end(), corner, isBefore) - points.begin());
+  }
+  result.Cells.resize(boxes.size());
+  std::iota(result.Cells.begin(), result.Cells.end(), Index(0));
+  return result;
 }
 
 Tessellation TessellateSurface(

@@ -23,7 +23,7 @@ struct Tessellation
 {
   std::vector<double> Parameters; ///< u, v, w a point, each point once; w slowest
   std::vector<Index> Elements;    ///< point ids: 8 a hexahedron or 4 a quadrilateral, VTK's order
-  std::vector<Index> Cells;       ///< the Bezier cell of each element, ascending
+  std::vector<Index> Cells;       ///< the Bezier cell (or box) of each element, ascending
 
   Index PointCount() const { return static_cast<Index>(this->Parameters.size() / 3); }
   Index ElementCount() const { return static_cast<Index>(this->Cells.size()); }
@@ -35,6 +35,11 @@ struct Tessellation
  */
 Tessellation TessellateVolume(
   const BezierMesh& mesh, int subdivisions, const Execution& execution = {});
+
+/// Each box as one hexahedron, boxes in knots of the given lines; Cells are their numbers. O(n log
+/// n).
+Tessellation TessellateBoxes(
+  const std::array<KnotLine, 3>& lines, const std::vector<IndexBox>& boxes);
 
 /**
  * The surface on which the parameter of direction 0, 1 or 2 is `value`: subdivisions^2

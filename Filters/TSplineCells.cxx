@@ -3,6 +3,7 @@
 #include "TSplineCells.h"
 
 #include "BezierExtraction.h"
+#include "BisectionMesh.h"
 #include "MemoryLimit.h"
 #include "Tessellation.h"
 
@@ -71,6 +72,18 @@ vtkSmartPointer<vtkCellArray> MakeCells(int pointsPerCell, const std::vector<Ind
   return cells;
 }
 
+// The cell in parameter space: u low, u high, v low, v high, w low, w high.
+std::array<double, 6> BoundsOf(const TSplineView& view, const IndexBox& box)
+{
+  std::array<double, 6> bounds;
+  for (int a = 0; a < 3; ++a)
+  {
+    bounds[2 * a] = view.Mesh.KnotLines()[a][box.Low[a]];
+    bounds[2 * a + 1] = view.Mesh.KnotLines()[a][box.High[a]];
+  }
+  return bounds;
+}
+
 // How often a cell of the coarsest mesh was halved to get one of the given bounds, from their
 // widths. The coarsest cells are equal parts of the domain if their number is known, else as wide
 // as the widest cell.
@@ -107,8 +120,11 @@ private:
   std::array<double, 3> RootWidths;
 };
 
-// ParametricBounds and Level of the Bezier cell that each element lies in.
-void AddCellArrays(const TSplineView& view, const std::vector<Index>& cells, vtkCellData* cellData)
+// ParametricBounds and Level of the cell that each element lies in; boundsOf(cell) tells its
+// bounds.
+template <typename Bounds>
+void AddCellArrays(const TSplineView& view, const std::vector<Index>& cells, const Bounds& boundsOf,
+  vtkCellData* cellData)
 {
   const Index count = static_cast<Index>(cells.size());
   const auto bounds = MakeArray<vtkDoubleArray>("ParametricBounds", 6, count);
@@ -116,7 +132,7 @@ void AddCellArrays(const TSplineView& view, const std::vector<Index>& cells, vtk
   const LevelOfCell level(view);
   for (Index i = 0; i < count; ++i)
   {
-    const auto box = view.Mesh.Bounds(cells[i]);
+    const std::array<double, 6> box = boundsOf(cells[i]);
     bounds->SetTypedTuple(i, box.data());
     levels->SetValue(i, level(box));
   }
@@ -143,6 +159,16 @@ void SamplePoints(const TSplineView& view, const std::vector<double>& parameters
   output->GetPointData()->AddArray(array);
 }
 
+// The hexahedra of a tessellation.
+template <typename Bounds>
+void FillElements(const TSplineView& view, const Tessellation& mesh, const Bounds& boundsOf,
+  vtkUnstructuredGrid* output, const Execution& execution)
+{
+  SamplePoints(view, mesh.Parameters, output, execution);
+  output->SetCells(VTK_HEXAHEDRON, MakeCells(8, mesh.Elements));
+  AddCellArrays(view, mesh.Cells, boundsOf, output->GetCellData());
+}
+
 // For each Bernstein coefficient, u fastest, its place among the points of VTK's cell.
 std::array<int, BezierPoints> MakePointOrder()
 {
@@ -166,9 +192,23 @@ void FillHexahedra(const TSplineView& view, int subdivisions, vtkUnstructuredGri
   RequireMemory(elements * (250.0 + sizeof(double) * numbers));
 
   const Tessellation mesh = TessellateVolume(view.Mesh, subdivisions, execution.Part(0.0, 0.4));
-  SamplePoints(view, mesh.Parameters, output, execution.Part(0.4, 1.0));
-  output->SetCells(VTK_HEXAHEDRON, MakeCells(8, mesh.Elements));
-  AddCellArrays(view, mesh.Cells, output->GetCellData());
+  FillElements(
+    view, mesh, [&view](Index cell) { return view.Mesh.Bounds(cell); }, output,
+    execution.Part(0.4, 1.0));
+}
+
+void FillTMesh(const TSplineView& view, vtkUnstructuredGrid* output, const Execution& execution)
+{
+  const std::vector<IndexBox> cells =
+    BisectionMesh::Recover(view.Model.Spline, view.Model.RootCells);
+  if (cells.empty())
+  {
+    FillHexahedra(view, 1, output, execution);
+    return;
+  }
+  const Tessellation mesh = TessellateBoxes(view.Mesh.KnotLines(), cells);
+  FillElements(
+    view, mesh, [&](Index cell) { return BoundsOf(view, cells[cell]); }, output, execution);
 }
 
 void FillSurfaces(const TSplineView& view, const std::array<std::vector<double>, 3>& positions,
@@ -288,7 +328,8 @@ void FillBezierHexahedra(
   }
   std::copy_n(ids.begin(), cellCount, cells.begin());
   output->SetCells(VTK_BEZIER_HEXAHEDRON, MakeCells(BezierPoints, ids));
-  AddCellArrays(view, cells, output->GetCellData());
+  AddCellArrays(
+    view, cells, [&view](Index cell) { return view.Mesh.Bounds(cell); }, output->GetCellData());
   for (const char* name : { "HigherOrderDegrees", "BezierDegrees" })
   {
     const auto degrees = MakeArray<vtkIntArray>(name, 3, cellCount);

@@ -23,6 +23,9 @@ namespace trivariate
 void FillHexahedra(const TSplineView& view, int subdivisions, vtkUnstructuredGrid* output,
   const Execution& execution);
 
+/// Each cell of the T-mesh as one trilinear hexahedron.
+void FillTMesh(const TSplineView& view, vtkUnstructuredGrid* output, const Execution& execution);
+
 /// Each Bezier cell as one rational tricubic VTK_BEZIER_HEXAHEDRON.
 void FillBezierHexahedra(
   const TSplineView& view, vtkUnstructuredGrid* output, const Execution& execution);

@@ -205,9 +205,12 @@ void vtkTSplineSource::Evaluate(
     case BEZIER_HEXES:
       trivariate::FillBezierHexahedra(view, vtkUnstructuredGrid::SafeDownCast(output), rest);
       break;
+    case TMESH:
+      trivariate::FillTMesh(view, vtkUnstructuredGrid::SafeDownCast(output), rest);
+      break;
     default:
-      trivariate::FillHexahedra(view, this->OutputType == TMESH ? 1 : this->Subdivisions,
-        vtkUnstructuredGrid::SafeDownCast(output), rest);
+      trivariate::FillHexahedra(
+        view, this->Subdivisions, vtkUnstructuredGrid::SafeDownCast(output), rest);
   }
 }
 

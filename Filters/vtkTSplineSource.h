@@ -27,8 +27,12 @@
  *   exact; 64 points a cell, not shared. VTK cuts, clips and probes such cells wrongly: tessellate
  *   them first, or take LINEAR_HEXES;
  * - ISO_SURFACES: vtkPolyData, quadrilaterals on surfaces of constant parameter;
- * - TMESH: vtkUnstructuredGrid, one hexahedron for each Bezier cell, which is a T-mesh cell cut at
- *   the knots that active functions have inside it; none is cut with splines of the compact rule;
+ * - TMESH: vtkUnstructuredGrid, one hexahedron for each cell of the T-mesh. Of an analysis-suitable
+ *   spline these are the cells that bisection left, rebuilt from the functions and the grid's field
+ *   array RootCells; functions can have knots inside of them, which cut them into Bezier cells. (A
+ *   cell that makes no difference to the functions may be shown halved.) Of all other splines, of
+ *   the compact rule, without RootCells or with functions left out under a mask, they are the
+ *   regions between the faces of all functions' knots: the Bezier cells themselves;
  * - POINTS: the data set of port 1 with the spline's values at its points.
  *
  * @par Arrays
@@ -43,8 +47,8 @@
  *   ComputeGradients and ComputeJacobian have no effect: these are no functions of that form.
  * Cell arrays:
  * - "ParametricBounds" (6: u, v, w low and high in turn), "Level" (int): LINEAR_HEXES, TMESH,
- *   BEZIER_HEXES: the Bezier cell, and how often a cell of the coarsest mesh was halved to get it
- *   (of the widest cells where the grid has no field array RootCells);
+ *   BEZIER_HEXES: the Bezier or T-mesh cell, and how often a cell of the coarsest mesh was halved
+ * to get it (of the widest cells where the grid has no field array RootCells);
  * - "HigherOrderDegrees" (active attribute) and its plain twin "BezierDegrees" (int, 3):
  *   BEZIER_HEXES. The twins survive moves between processes, which drop the active attributes;
  * - "SurfaceDirection" (int: 0, 1, 2 for u, v, w) and "SurfaceParameter": ISO_SURFACES.

@@ -144,6 +144,70 @@ TEST(BisectionMesh, IsRecoveredFromItsFunctions)
   }
 }
 
+// As a spline comes back from a pipeline: lines of the values in use alone, each its own distance.
+TEST(BisectionMesh, IsRecoveredWhereLinesLackUnusedKnots)
+{
+  int incomplete = 0;
+  for (unsigned seed = 0; seed < 20; ++seed)
+  {
+    const BisectionMesh mesh = RandomMesh({ 3, 2, 5 }, { 4, 5, 2 }, Closure::Narrow, seed);
+    const TSpline whole = SplineOf(mesh, { 48, 64, 20 });
+    const auto expected = BisectionMesh::Recover(whole, { 3, 2, 5 });
+    ASSERT_FALSE(expected.empty());
+    TSpline spline = whole;
+    for (int a = 0; a < 3; ++a)
+    {
+      std::vector<std::int32_t> used;
+      for (const BlendingFunction& f : whole.Functions)
+      {
+        used.insert(used.end(), f[a].begin(), f[a].end());
+      }
+      std::sort(used.begin(), used.end());
+      used.erase(std::unique(used.begin(), used.end()), used.end());
+      incomplete += used.size() < whole.KnotLines[a].size();
+      spline.KnotLines[a].clear();
+      for (const std::int32_t knot : used)
+      {
+        // An image of a hundred voxels, far from the origin.
+        spline.KnotLines[a].push_back(7.0 + 99.0 * knot / (whole.KnotLines[a].size() - 1));
+      }
+      for (BlendingFunction& f : spline.Functions)
+      {
+        for (std::int32_t& knot : f[a])
+        {
+          knot = std::lower_bound(used.begin(), used.end(), knot) - used.begin();
+        }
+      }
+    }
+    const auto cells = BisectionMesh::Recover(spline, { 3, 2, 5 });
+    ASSERT_EQ(cells.size(), expected.size());
+    for (std::size_t i = 0; i < cells.size(); ++i)
+    {
+      for (int a = 0; a < 3; ++a)
+      {
+        for (const auto end : { &IndexBox::Low, &IndexBox::High })
+        {
+          const double x = (spline.KnotLines[a][(cells[i].*end)[a]] - 7.0) / 99.0;
+          EXPECT_NEAR(x, double((expected[i].*end)[a]) / (whole.KnotLines[a].size() - 1), 1e-14);
+        }
+      }
+    }
+  }
+  EXPECT_GT(incomplete, 0);
+}
+
+// Knots at other distances: every root cell has equally many intervals of the line.
+TEST(BisectionMesh, IsRecoveredWithKnotsAtAnyDistance)
+{
+  std::mt19937 random(4);
+  TSpline spline =
+    SplineOf(RandomMesh({ 3, 2, 5 }, { 3, 3, 2 }, Closure::Narrow, 1), { 24, 16, 20 });
+  const auto expected = BisectionMesh::Recover(spline, { 3, 2, 5 });
+  const TSpline other = RandomTensorProduct({ 3, 2, 5 }, { 3, 3, 2 }, random);
+  spline.KnotLines = other.KnotLines;
+  EXPECT_EQ(BisectionMesh::Recover(spline, { 3, 2, 5 }).size(), expected.size());
+}
+
 TEST(BisectionMesh, OtherFunctionsAreNotMistakenForAMesh)
 {
   TSpline spline =
@@ -151,6 +215,7 @@ TEST(BisectionMesh, OtherFunctionsAreNotMistakenForAMesh)
   EXPECT_FALSE(BisectionMesh::Recover(spline, { 4, 4, 4 }).empty());
   EXPECT_TRUE(BisectionMesh::Recover(spline, { 5, 4, 4 }).empty());
   EXPECT_TRUE(BisectionMesh::Recover(spline, { 0, 4, 4 }).empty());
+  EXPECT_TRUE(BisectionMesh::Recover(spline, { 16 << 16, 16 << 16, 16 << 10 }).empty());
   spline.Functions.pop_back();
   EXPECT_TRUE(BisectionMesh::Recover(spline, { 4, 4, 4 }).empty());
 }

@@ -20,10 +20,10 @@
 namespace trivariate
 {
 /// Refines where `rounds` random marks fall; geometry and attributes stay the same functions.
-inline void RefineRandomly(TSpline& spline, int rounds, unsigned seed)
+inline void RefineRandomly(
+  TSpline& spline, int rounds, unsigned seed, const std::unique_ptr<RefinementRule>& rule)
 {
   std::mt19937 random(seed);
-  const auto rule = MakeKnotInsertionRule(spline);
   for (int round = 0; round < rounds; ++round)
   {
     std::vector<RefinementMark> marks;
@@ -40,6 +40,11 @@ inline void RefineRandomly(TSpline& spline, int rounds, unsigned seed)
     }
     rule->Refine(spline, marks);
   }
+}
+
+inline void RefineRandomly(TSpline& spline, int rounds, unsigned seed)
+{
+  RefineRandomly(spline, rounds, seed, MakeKnotInsertionRule(spline));
 }
 
 inline void FinishModel(TSplineModel& model)

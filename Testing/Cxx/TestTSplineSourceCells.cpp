@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "BisectionMesh.h"
 #include "Evaluator.h"
 #include "SplineModels.h"
 
@@ -122,6 +123,48 @@ TEST(TSplineSourceCells, HexahedraCarryTheSplineAndItsCells)
         ASSERT_GE(u, b[2 * a] - 1e-14);
         ASSERT_LE(u, b[2 * a + 1] + 1e-14);
       }
+    }
+  }
+}
+
+// The cells that bisection left, not the Bezier cells, from what the grid alone tells.
+TEST(TSplineSourceCells, TMeshOfAnAnalysisSuitableSplineIsWhatBisectionLeft)
+{
+  for (unsigned seed = 1; seed <= 5; ++seed)
+  {
+    TSplineModel model;
+    const KnotLine line = MakeUniformKnotLine(0.0, 33.0, 32);
+    model.Spline = MakeTensorProduct({ line, line, line }, { 8, 8, 8 }, 0);
+    model.RootCells = { 4, 4, 4 };
+    RefineRandomly(model.Spline, 4, seed, MakeAnalysisSuitableRule(model.Spline));
+    FinishModel(model);
+    const auto expected = BisectionMesh::Recover(model.Spline, model.RootCells);
+    ASSERT_GT(expected.size(), 64u);
+    const BezierMesh bezier(model.Spline);
+    ASSERT_LT(static_cast<Index>(expected.size()), bezier.Size());
+
+    auto source = MakeSource(model, vtkTSplineSource::TMESH);
+    source->Update();
+    auto* grid = vtkUnstructuredGrid::SafeDownCast(source->GetOutput());
+    ASSERT_EQ(grid->GetNumberOfCells(), static_cast<vtkIdType>(expected.size()));
+    EXPECT_NEAR(Volume(grid), 33.0 * 33.0 * 33.0, 1e-8); // no gap, no overlap
+    vtkDataArray* bounds = grid->GetCellData()->GetArray("ParametricBounds");
+    vtkDataArray* level = grid->GetCellData()->GetArray("Level");
+    for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i)
+    {
+      double b[6], x[6];
+      bounds->GetTuple(i, b);
+      grid->GetCellBounds(i, x); // the geometry is the identity
+      double volume = 1.0;
+      for (int a = 0; a < 3; ++a)
+      {
+        EXPECT_NEAR(b[2 * a], line[expected[i].Low[a]], 1e-12);
+        EXPECT_NEAR(b[2 * a + 1], line[expected[i].High[a]], 1e-12);
+        EXPECT_NEAR(x[2 * a], b[2 * a], 1e-12);
+        EXPECT_NEAR(x[2 * a + 1], b[2 * a + 1], 1e-12);
+        volume *= (b[2 * a + 1] - b[2 * a]) / (33.0 / 4.0);
+      }
+      EXPECT_NEAR(level->GetTuple1(i), -std::log2(volume), 1e-9);
     }
   }
 }
