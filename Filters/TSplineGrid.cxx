@@ -279,10 +279,6 @@ void TSplineToGrid(const TSplineModel& model, vtkUnstructuredGrid* grid)
     }
     first += attribute.Components;
   }
-  if (!model.Attributes.empty())
-  {
-    data->SetActiveScalars(model.Attributes[0].Name.c_str()); // what ParaView colors by at first
-  }
   for (int a = 0; a < 3; ++a)
   {
     double* values = AddArray<vtkDoubleArray>(data, TSplineArrayNames[a], 5, n);

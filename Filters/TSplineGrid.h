@@ -12,7 +12,10 @@
  *   Segment, Block           int32        see Documentation/Arrays.md
  *   any other name           double x c   one array an attribute, c >= 1 components
  *
- * and the field array RootCells (int32 x 3) where the coarsest T-mesh is known.
+ * No array is the active scalars: the attributes are control values, which range wider than the
+ * field, and no colors that anyone should see without asking.
+ *
+ * Beside them the field array RootCells (int32 x 3) where the coarsest T-mesh is known.
  */
 #ifndef TSplineGrid_h
 #define TSplineGrid_h

@@ -12,7 +12,7 @@
  * @par Output
  * Port 0: a T-spline grid, a vtkUnstructuredGrid with one vertex cell a control point and the point
  * arrays
- * - one array an attribute (double, its own number of components), the first one active;
+ * - one array an attribute (double, its own number of components), none of them active;
  * - "KnotsU", "KnotsV", "KnotsW" (double x 5): the local knot vectors of the blending functions;
  * - "Weight" (double, positive): the weights;
  * - "Segment", "Block" (int32): where the control points belong.
