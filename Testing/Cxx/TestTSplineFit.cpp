@@ -277,3 +277,21 @@ TEST(TSplineFit, SaysWhatIsWrongWithTheInput)
   fit->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "wave");
   ExpectFault(fit, log, "20 x 1 x 30");
 }
+
+//------------------------------------------------------------------------------
+// The samples of a cube of 20000 voxels a side would fill terabytes. The array has none of them;
+// who reads one before asking for the memory crashes.
+TEST(TSplineFit, RefusesAnImageThatDoesNotFitIntoMemory)
+{
+  unsigned char sample = 0;
+  vtkNew<vtkUnsignedCharArray> samples;
+  samples->SetName("samples");
+  samples->SetArray(&sample, vtkIdType(20000) * 20000 * 20000, 1);
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(20000, 20000, 20000);
+  image->GetPointData()->SetScalars(samples);
+  vtkNew<vtkTSplineFit> fit;
+  ErrorLog log(fit);
+  fit->SetInputData(image);
+  ExpectFault(fit, log, "The copy of the voxels would need 122070313 MiB of memory, but only ");
+}
