@@ -1,0 +1,404 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CubeCharts.h"
+
+#include "ConformalCylinder.h"
+#include "CylinderCharts.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <queue>
+#include <stdexcept>
+#include <string>
+
+namespace trivariate
+{
+namespace
+{
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// The rotation closest to a matrix.
+Matrix3d ClosestRotation(const Matrix3d& m)
+{
+  const Eigen::JacobiSVD<Matrix3d> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Matrix3d sign = Matrix3d::Identity();
+  sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() > 0.0 ? 1.0 : -1.0;
+  return svd.matrixU() * sign * svd.matrixV().transpose();
+}
+
+constexpr double TwoPi = 6.283185307179586;
+
+double SignOf(ChartLabel label)
+{
+  return label % 2 ? 1.0 : -1.0;
+}
+
+class Search
+{
+public:
+  Search(const SurfaceMesh& mesh, const CubeChartOptions& options, const Execution& execution)
+    : Mesh(mesh)
+    , Options(options)
+    , Run(execution)
+    , Cylinder(mesh)
+  {
+    const Index m = mesh.NumberOfTriangles();
+    for (Index t = 0; t < m; ++t)
+    {
+      const Triangle& c = mesh.Triangles[t];
+      const Vector3d area = mesh.AreaVector(t);
+      this->Areas.push_back(area.norm());
+      this->Normals.push_back(area.normalized());
+      this->Centres.push_back((mesh.Points[c[0]] + mesh.Points[c[1]] + mesh.Points[c[2]]) / 3.0);
+      this->Area += this->Areas[t];
+      this->Centre += this->Areas[t] * this->Centres[t];
+    }
+    this->Centre /= this->Area;
+    for (int round = 0; round < options.NormalSmoothing; ++round)
+    {
+      this->SmoothNormals();
+    }
+  }
+
+  CubeCharts Best()
+  {
+    std::vector<std::pair<Index, Index>> poles{ this->FarthestPoints() };
+    for (const Vector3d& axis : this->Axes())
+    {
+      poles.emplace_back(this->Extreme(-axis), this->Extreme(axis));
+    }
+    CubeCharts best;
+    double most = -2.0;
+    for (std::size_t i = 0; i < poles.size(); ++i)
+    {
+      this->Run.Check(0.2 + 0.8 * i / poles.size());
+      if (poles[i].first == poles[i].second)
+      {
+        continue;
+      }
+      for (const bool bent : { false, true })
+      {
+        CubeCharts charts = this->Between(poles[i].first, poles[i].second, bent);
+        const double value = charts.Alignment - (bent ? this->Options.BendingGain : 0.0);
+        if (value > most && AreCubeCharts(this->Mesh, charts.Labels))
+        {
+          most = value;
+          best = std::move(charts);
+        }
+      }
+    }
+    if (most == -2.0)
+    {
+      throw std::runtime_error("No cube could be laid on the surface.");
+    }
+    return best;
+  }
+
+private:
+  void SmoothNormals()
+  {
+    std::vector<Vector3d> smooth(this->Normals.size());
+    for (Index t = 0; t < this->Mesh.NumberOfTriangles(); ++t)
+    {
+      Vector3d sum = this->Areas[t] * this->Normals[t];
+      for (int k = 0; k < 3; ++k)
+      {
+        const Index other = this->Mesh.Neighbour(t, k);
+        sum += this->Areas[other] * this->Normals[other];
+      }
+      smooth[t] = sum.normalized();
+    }
+    this->Normals = std::move(smooth);
+  }
+
+  // The axes to which the normals cling most, from two starts: the principal axes of the area, and
+  // the same turned about the diagonal. Where the normals have no say, the starts themselves count.
+  std::vector<Vector3d> Axes() const
+  {
+    Matrix3d moment = Matrix3d::Zero();
+    for (std::size_t t = 0; t < this->Areas.size(); ++t)
+    {
+      const Vector3d d = this->Centres[t] - this->Centre;
+      moment += this->Areas[t] * d * d.transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(moment);
+    Matrix3d frame = principal.eigenvectors().transpose();
+    frame.row(2) = frame.row(0).cross(frame.row(1));
+    std::vector<Vector3d> axes;
+    const auto add = [&axes](const Matrix3d& f)
+    {
+      for (int a = 2; a >= 0; --a)
+      {
+        axes.push_back(f.row(a));
+      }
+    };
+    add(frame);
+    add(this->ClingToNormals(frame));
+    const Eigen::AngleAxisd turn(0.6, Vector3d(1.0, 1.0, 1.0).normalized());
+    add(this->ClingToNormals(turn.toRotationMatrix() * frame));
+    return axes;
+  }
+
+  // Raises the area-weighted sum of the fourth powers of the normals' components.
+  Matrix3d ClingToNormals(Matrix3d frame) const
+  {
+    for (int round = 0; round < 30; ++round)
+    {
+      Matrix3d correlation = Matrix3d::Zero();
+      for (std::size_t t = 0; t < this->Areas.size(); ++t)
+      {
+        const Vector3d n = frame * this->Normals[t];
+        const Vector3d cube = n.array().cube();
+        correlation += this->Areas[t] * cube * this->Normals[t].transpose();
+      }
+      frame = ClosestRotation(correlation);
+    }
+    return frame;
+  }
+
+  // Far along the axis, but near it.
+  Index Extreme(const Vector3d& axis) const
+  {
+    const auto value = [this, &axis](const Vector3d& point)
+    {
+      const Vector3d d = point - this->Centre;
+      const double along = d.dot(axis);
+      return along - 0.5 * (d - along * axis).norm();
+    };
+    const auto& points = this->Mesh.Points;
+    return std::max_element(points.begin(), points.end(),
+             [&value](const Vector3d& a, const Vector3d& b) { return value(a) < value(b); }) -
+           points.begin();
+  }
+
+  // The ends of a longest way along the edges: two sweeps from a point that is far from the centre.
+  std::pair<Index, Index> FarthestPoints() const
+  {
+    const Index a = this->FarthestFrom(0);
+    const Index b = this->FarthestFrom(a);
+    return { b, this->FarthestFrom(b) };
+  }
+
+  Index FarthestFrom(Index start) const
+  {
+    std::vector<double> way(this->Mesh.Points.size(), std::numeric_limits<double>::infinity());
+    using Entry = std::pair<double, Index>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
+    way[start] = 0.0;
+    front.push({ 0.0, start });
+    Index last = start;
+    while (!front.empty())
+    {
+      const auto [length, p] = front.top();
+      front.pop();
+      if (length > way[p])
+      {
+        continue;
+      }
+      last = p;
+      for (const Index* t = this->Mesh.FanBegin(p); t != this->Mesh.FanEnd(p); ++t)
+      {
+        const Index q = this->Mesh.Triangles[*t][(this->Mesh.CornerOf(*t, p) + 1) % 3];
+        const double sum = length + (this->Mesh.Points[q] - this->Mesh.Points[p]).norm();
+        if (sum < way[q])
+        {
+          way[q] = sum;
+          front.push({ sum, q });
+        }
+      }
+    }
+    return last;
+  }
+
+  std::vector<CylinderCell> CellsOf(const CylinderCoordinates& map) const
+  {
+    std::vector<CylinderCell> cells(this->Areas.size());
+    for (std::size_t t = 0; t < cells.size(); ++t)
+    {
+      double x = 0.0, y = 0.0, height = 0.0;
+      for (const Index p : this->Mesh.Triangles[t])
+      {
+        x += std::cos(map.Angle[p]);
+        y += std::sin(map.Angle[p]);
+        height += map.Height[p] / 3.0;
+      }
+      const double angle = std::atan2(y, x);
+      cells[t] = { height, angle < 0.0 ? angle + TwoPi : angle };
+    }
+    return cells;
+  }
+
+  CubeCharts Between(Index low, Index high, bool bent)
+  {
+    const std::vector<CylinderCell> cells = this->CellsOf(this->Cylinder.Map(low, high));
+    CubeCharts charts;
+    if (bent)
+    {
+      this->BendFrames(cells, charts);
+    }
+    else
+    {
+      charts.Frames = { Matrix3d::Identity() };
+      charts.Frames[0].row(2) = (this->Mesh.Points[high] - this->Mesh.Points[low]).normalized();
+      charts.Frames[0].row(0) = charts.Frames[0].row(2).unitOrthogonal();
+      charts.Frames[0].row(1) = charts.Frames[0].row(2).cross(charts.Frames[0].row(0));
+      charts.FrameOfTriangle.assign(cells.size(), 0);
+    }
+    this->TurnFrames(cells, charts);
+    for (int round = 0; round < 3; ++round)
+    {
+      charts.Labels = LabelCylinder(cells, this->Areas, this->Rewards(charts));
+      this->Refit(charts);
+    }
+    KeepLargestPieces(this->Mesh, charts.Labels);
+    for (int round = 0; round < 3; ++round)
+    {
+      RelabelTowardNormals(
+        this->Mesh, this->Rewards(charts), this->Options.Stiffness, charts.Labels, this->Run);
+      this->Refit(charts);
+    }
+    charts.Alignment = this->AlignmentOf(charts);
+    return charts;
+  }
+
+  // Frames along the centres of slabs of equal area between the poles, each turned from the last as
+  // little as possible.
+  void BendFrames(const std::vector<CylinderCell>& cells, CubeCharts& charts) const
+  {
+    const int count = this->Options.BendingSegments;
+    std::vector<std::size_t> order(cells.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(),
+      [&cells](std::size_t a, std::size_t b) { return cells[a].Height < cells[b].Height; });
+    charts.FrameOfTriangle.resize(cells.size());
+    std::vector<Vector3d> centres(count, Vector3d::Zero());
+    std::vector<double> areas(count, 0.0);
+    double covered = 0.0;
+    for (const std::size_t t : order)
+    {
+      const int slab = std::min(count - 1, static_cast<int>(count * covered / this->Area));
+      charts.FrameOfTriangle[t] = slab;
+      centres[slab] += this->Areas[t] * this->Centres[t];
+      areas[slab] += this->Areas[t];
+      covered += this->Areas[t];
+    }
+    for (int slab = 0; slab < count; ++slab)
+    {
+      centres[slab] /= std::max(areas[slab], 1e-300);
+    }
+    // The ends of the line stay, the rest is smoothed.
+    for (int round = 0; round < count; ++round)
+    {
+      const std::vector<Vector3d> before = centres;
+      for (int slab = 1; slab + 1 < count; ++slab)
+      {
+        centres[slab] = 0.25 * before[slab - 1] + 0.5 * before[slab] + 0.25 * before[slab + 1];
+      }
+    }
+    Vector3d u = Vector3d::Zero();
+    for (int slab = 0; slab < count; ++slab)
+    {
+      const Vector3d w =
+        (centres[std::min(count - 1, slab + 1)] - centres[std::max(0, slab - 1)]).normalized();
+      u -= u.dot(w) * w;
+      u = u.norm() > 1e-6 ? Vector3d(u.normalized()) : w.unitOrthogonal();
+      Matrix3d frame;
+      frame << u.transpose(), w.cross(u).transpose(), w.transpose();
+      charts.Frames.push_back(frame);
+    }
+  }
+
+  // Turns all frames about their third axes by one angle, so that u is where the sides at angle 0
+  // look.
+  void TurnFrames(const std::vector<CylinderCell>& cells, CubeCharts& charts) const
+  {
+    double x = 0.0, y = 0.0;
+    for (std::size_t t = 0; t < cells.size(); ++t)
+    {
+      const Vector3d n =
+        this->Areas[t] * (charts.Frames[charts.FrameOfTriangle[t]] * this->Normals[t]);
+      const double c = std::cos(cells[t].Angle), s = std::sin(cells[t].Angle);
+      x += c * n[0] + s * n[1];
+      y += c * n[1] - s * n[0];
+    }
+    const Matrix3d turn =
+      Eigen::AngleAxisd(-std::atan2(y, x), Vector3d::UnitZ()).toRotationMatrix();
+    for (Matrix3d& frame : charts.Frames)
+    {
+      frame = turn * frame;
+    }
+  }
+
+  // One rotation of all frames in their own axes toward the normals of the labels.
+  void Refit(CubeCharts& charts) const
+  {
+    Matrix3d correlation = Matrix3d::Zero();
+    for (std::size_t t = 0; t < charts.Labels.size(); ++t)
+    {
+      const Vector3d n = charts.Frames[charts.FrameOfTriangle[t]] * this->Normals[t];
+      correlation.row(charts.Labels[t] / 2) +=
+        SignOf(charts.Labels[t]) * this->Areas[t] * n.transpose();
+    }
+    const Matrix3d turn = ClosestRotation(correlation);
+    for (Matrix3d& frame : charts.Frames)
+    {
+      frame = turn * frame;
+    }
+  }
+
+  ChartRewards Rewards(const CubeCharts& charts) const
+  {
+    ChartRewards rewards(this->Areas.size());
+    for (std::size_t t = 0; t < rewards.size(); ++t)
+    {
+      const Vector3d n =
+        this->Areas[t] * (charts.Frames[charts.FrameOfTriangle[t]] * this->Normals[t]);
+      rewards[t] = { -n[0], n[0], -n[1], n[1], -n[2], n[2] };
+    }
+    return rewards;
+  }
+
+  // With the surface's own normals, not the smoothed ones.
+  double AlignmentOf(const CubeCharts& charts) const
+  {
+    double sum = 0.0;
+    for (Index t = 0; t < this->Mesh.NumberOfTriangles(); ++t)
+    {
+      const ChartLabel label = charts.Labels[t];
+      sum += SignOf(label) *
+             charts.Frames[charts.FrameOfTriangle[t]].row(label / 2).dot(this->Mesh.AreaVector(t));
+    }
+    return sum / this->Area;
+  }
+
+  const SurfaceMesh& Mesh;
+  const CubeChartOptions& Options;
+  const Execution& Run;
+  ConformalCylinder Cylinder;
+  std::vector<double> Areas;
+  std::vector<Vector3d> Normals, Centres;
+  double Area = 0.0;
+  Vector3d Centre = Vector3d::Zero();
+};
+}
+
+//------------------------------------------------------------------------------
+CubeCharts FindCubeCharts(
+  const SurfaceMesh& mesh, const CubeChartOptions& options, const Execution& execution)
+{
+  Index pieces = 0;
+  mesh.Components(pieces);
+  if (pieces != 1 || mesh.EulerCharacteristic() != 2)
+  {
+    throw std::invalid_argument(
+      "The surface has " + std::to_string(pieces) + " piece(s) and Euler characteristic " +
+      std::to_string(mesh.EulerCharacteristic()) +
+      "; one cube needs one piece without handles (Euler characteristic 2).");
+  }
+  return Search(mesh, options, execution).Best();
+}
+}
