@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <tuple>
 
 namespace trivariate
 {
@@ -80,6 +81,18 @@ std::array<std::int64_t, 5> CooccurrenceUnits::InverseWeights(int d, int levels)
   std::transform(weights.begin(), weights.end(), integers.begin(),
     [this](double weight) { return std::llround(weight * this->Inverse); });
   return integers;
+}
+
+//------------------------------------------------------------------------------
+bool CooccurrenceSums::operator==(const CooccurrenceSums& other) const
+{
+  const auto tie = [](const CooccurrenceSums& s)
+  {
+    return std::tie(s.JointLogarithms, s.SumLogarithms, s.DifferenceLogarithms, s.LevelLogarithms,
+      s.TotalLogarithm, s.Squares, s.LargestCount, s.Sums, s.Differences, s.Inverses, s.EqualPairs,
+      s.Pairs, s.Units.Logarithm, s.Units.Inverse, s.Levels);
+  };
+  return tie(*this) == tie(other);
 }
 
 //------------------------------------------------------------------------------

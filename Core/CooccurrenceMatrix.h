@@ -93,6 +93,8 @@ struct CooccurrenceSums
   /// {i, j}; with the same s; with the same d; the number of times that a level occurs in a pair.
   std::int64_t TotalLogarithm = 0, JointLogarithms = 0, SumLogarithms = 0, DifferenceLogarithms = 0,
                LevelLogarithms = 0;
+
+  bool operator==(const CooccurrenceSums& other) const;
 };
 
 /// The sums over a matrix. Cost: G^2.

@@ -2,17 +2,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CooccurrenceSweep.h"
 
+#include "GreyLevels.h"
 #include "TargetClones.h"
 #include "TextureAttributes.h"
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 
 namespace trivariate
 {
 namespace
 {
-constexpr int SumWidth = PairTables::SumWidth;
+constexpr int Block = PairTables::RowBlock;
 
 int RoundUp(int n, int multiple)
 {
@@ -27,18 +29,17 @@ struct CodeRun
 };
 
 // face += the rows of the codes that come - the rows of those that go.
-template <int Block, typename T>
-TRIVARIATE_INLINE void MoveFace(
-  T* face, int width, const std::vector<T>& rows, const CodeRun& come, const CodeRun& go)
+TRIVARIATE_CLONES
+void MoveFace(const PairTables& tables, RowWord* face, const CodeRun& come, const CodeRun& go)
 {
-  for (int first = 0; first < width; first += Block)
+  for (int first = 0; first < tables.RowWidth; first += Block)
   {
-    const T* table = rows.data() + first;
-    T block[Block];
+    const RowWord* table = tables.Rows.data() + first;
+    RowWord block[Block];
     std::copy_n(face + first, Block, block);
     for (const PairCode* code = come.Begin; code != come.End; ++code)
     {
-      const T* row = table + std::size_t(*code) * width;
+      const RowWord* row = table + std::size_t(*code) * tables.RowWidth;
       for (int k = 0; k < Block; ++k)
       {
         block[k] += row[k];
@@ -46,7 +47,7 @@ TRIVARIATE_INLINE void MoveFace(
     }
     for (const PairCode* code = go.Begin; code != go.End; ++code)
     {
-      const T* row = table + std::size_t(*code) * width;
+      const RowWord* row = table + std::size_t(*code) * tables.RowWidth;
       for (int k = 0; k < Block; ++k)
       {
         block[k] -= row[k];
@@ -56,72 +57,57 @@ TRIVARIATE_INLINE void MoveFace(
   }
 }
 
-TRIVARIATE_CLONES
-void MoveFaces(const PairTables& tables, std::int64_t* sums, PairCount* counts, const CodeRun& come,
-  const CodeRun& go)
+// A column of pairs at the window's end: the sums over it, and its codes.
+struct Face
 {
-  MoveFace<SumWidth>(sums, SumWidth, tables.SumRows, come, go);
-  MoveFace<PairTables::CountBlock>(counts, tables.CountWidth, tables.CountRows, come, go);
+  const RowWord* Row;
+  CodeRun Codes;
+};
+
+bool SameCodes(const Face& a, const Face& b)
+{
+  return std::equal(a.Codes.Begin, a.Codes.End, b.Codes.Begin);
 }
 
-// window += sign * face.
-template <int Sign, int Block, typename T>
-TRIVARIATE_INLINE void AddFace(T* window, int width, const T* face)
-{
-  for (int first = 0; first < width; first += Block)
-  {
-    for (int k = first; k < first + Block; ++k)
-    {
-      window[k] += Sign * face[k];
-    }
-  }
-}
-
-// A window that takes faces in and out.
+// What is kept while a window takes faces in and out.
 struct MovingWindow
 {
   const PairTables& Tables;
-  PairCount* Counts;
+  RowWord* Row;
   PairCount* CodeCounts;
-  std::int64_t Sums[SumWidth];
   std::int64_t JointLogarithms;
 };
 
 template <int Sign>
-TRIVARIATE_INLINE void MoveWindow(
-  MovingWindow& window, const std::int64_t* sums, const PairCount* counts, const CodeRun& codes)
+TRIVARIATE_INLINE void Move(MovingWindow& window, const Face& face)
 {
-  AddFace<Sign, SumWidth>(window.Sums, SumWidth, sums);
-  AddFace<Sign, PairTables::CountBlock>(window.Counts, window.Tables.CountWidth, counts);
-  const std::int64_t* next = window.Tables.NextNLogN.data();
-  std::int64_t logarithms = 0;
-  for (const PairCode* code = codes.Begin; code != codes.End; ++code)
+  for (int first = 0; first < window.Tables.RowWidth; first += Block)
   {
-    PairCount& count = window.CodeCounts[*code];
-    if (Sign > 0)
+    for (int k = first; k < first + Block; ++k)
     {
-      logarithms += next[count++];
-    }
-    else
-    {
-      logarithms -= next[--count];
+      window.Row[k] += Sign > 0 ? face.Row[k] : -face.Row[k];
     }
   }
-  window.JointLogarithms += logarithms;
+  const std::int64_t* next = window.Tables.NextNLogN.data();
+  PairCount* counts = window.CodeCounts;
+  std::int64_t logarithms = window.JointLogarithms;
+  for (const PairCode* code = face.Codes.Begin; code != face.Codes.End; ++code)
+  {
+    logarithms += Sign > 0 ? next[counts[*code]++] : -next[--counts[*code]];
+  }
+  window.JointLogarithms = logarithms;
 }
 
 TRIVARIATE_CLONES
-void Come(
-  MovingWindow& window, const std::int64_t* sums, const PairCount* counts, const CodeRun& codes)
+void Come(MovingWindow& window, const Face& face)
 {
-  MoveWindow<1>(window, sums, counts, codes);
+  Move<1>(window, face);
 }
 
 TRIVARIATE_CLONES
-void Go(
-  MovingWindow& window, const std::int64_t* sums, const PairCount* counts, const CodeRun& codes)
+void Go(MovingWindow& window, const Face& face)
 {
-  MoveWindow<-1>(window, sums, counts, codes);
+  Move<-1>(window, face);
 }
 
 TRIVARIATE_INLINE std::int64_t Total(
@@ -163,17 +149,19 @@ void Summarise(const MovingWindow& window, CooccurrenceSums& sums)
   const int levels = tables.Levels;
   sums.Levels = levels;
   sums.Units = tables.Units;
-  const std::int64_t* sum = window.Sums;
+  const RowWord* sum = window.Row;
   sums.Pairs = sum[0];
   sums.EqualPairs = sum[1];
   std::copy_n(sum + 2, 4, sums.Sums.begin());
   std::copy_n(sum + 6, 2, sums.Differences.begin());
   std::copy_n(sum + 8, 5, sums.Inverses.begin());
+  PairCount counts[4 * MaximumGreyLevels];
+  std::memcpy(counts, sum + PairTables::SumWords, levels * sizeof(RowWord));
   sums.TotalLogarithm = tables.NLogN[2 * sums.Pairs];
   sums.JointLogarithms = window.JointLogarithms;
-  sums.LevelLogarithms = Total(tables.NLogN, window.Counts, levels);
-  sums.DifferenceLogarithms = Total(tables.NLogN, window.Counts + levels, levels);
-  sums.SumLogarithms = Total(tables.NLogN, window.Counts + 2 * levels, 2 * levels - 1);
+  sums.LevelLogarithms = Total(tables.NLogN, counts, levels);
+  sums.DifferenceLogarithms = Total(tables.NLogN, counts + levels, levels);
+  sums.SumLogarithms = Total(tables.NLogN, counts + 2 * levels, 2 * levels - 1);
   // A pair of one level is counted twice in one entry of the matrix, another one once in two.
   const PairCount* unequal = window.CodeCounts + tables.Unequal;
   const int numberUnequal = tables.Codes - tables.Unequal;
@@ -190,12 +178,12 @@ PairTables::PairTables(int levels, Index mostPairs)
   , Units(mostPairs)
   , Unequal(RoundUp(levels, 16))
   , Codes(this->Unequal + RoundUp(levels * (levels - 1) / 2, 16))
-  , CountWidth(RoundUp(4 * levels, CountBlock))
+  , RowWidth(RoundUp(SumWords + levels, RowBlock))
   , CodeOf(levels * levels)
-  , SumRows(this->Codes * SumWidth)
-  , CountRows(std::size_t(this->Codes) * this->CountWidth)
+  , Rows(std::size_t(this->Codes) * this->RowWidth)
 {
   PairCode nextCode = static_cast<PairCode>(this->Unequal);
+  std::vector<PairCount> counts(4 * levels);
   for (int i = 0; i < levels; ++i)
   {
     for (int j = 0; j <= i; ++j)
@@ -203,20 +191,17 @@ PairTables::PairTables(int levels, Index mostPairs)
       const PairCode code = i == j ? static_cast<PairCode>(i) : nextCode++;
       this->CodeOf[i * levels + j] = this->CodeOf[j * levels + i] = code;
       const std::int64_t d = i - j, s = i + j + 2;
-      std::int64_t* row = &this->SumRows[code * SumWidth];
-      row[0] = 1;
-      row[1] = i == j;
-      std::int64_t power = 1;
-      std::generate_n(row + 2, 4, [&power, s]() { return power *= s; });
-      row[6] = d;
-      row[7] = d * d;
+      RowWord* row = &this->Rows[std::size_t(code) * this->RowWidth];
       const auto weights = this->Units.InverseWeights(i - j, levels);
-      std::copy(weights.begin(), weights.end(), row + 8);
-      PairCount* counts = &this->CountRows[std::size_t(code) * this->CountWidth];
+      const std::array<std::int64_t, SumWords> sums = { 1, i == j, s, s * s, s * s * s,
+        s * s * s * s, d, d * d, weights[0], weights[1], weights[2], weights[3], weights[4] };
+      std::copy(sums.begin(), sums.end(), row);
+      std::fill(counts.begin(), counts.end(), PairCount(0));
       ++counts[i];
       ++counts[j];
       ++counts[levels + i - j];
       ++counts[2 * levels + i + j];
+      std::memcpy(row + SumWords, counts.data(), levels * sizeof(RowWord));
     }
   }
   for (Index n = 0; n <= 2 * mostPairs; ++n)
@@ -237,7 +222,7 @@ CooccurrenceSweep::CooccurrenceSweep(const PairTables& tables, const std::uint8_
   , Size(size)
   , Radius(radius)
   , CodeCounts(tables.Codes)
-  , Counts(tables.CountWidth)
+  , Row(tables.RowWidth)
 {
   for (const PairDirection& direction : directions)
   {
@@ -267,8 +252,7 @@ void CooccurrenceSweep::Begin(const VoxelBox& tile)
       pairs.Count[a] = this->Window(tile.End[a] - 1, a, pairs.Direction).End - pairs.First[a];
     }
     this->EncodePairs(pairs);
-    pairs.SumFaces.assign(pairs.Count[0] * SumWidth, 0);
-    pairs.CountFaces.assign(pairs.Count[0] * this->Tables.CountWidth, 0);
+    pairs.Faces.assign(pairs.Count[0] * this->Tables.RowWidth, 0);
     pairs.Lines = { pairs.First[1], pairs.First[1] };
   }
 }
@@ -311,9 +295,8 @@ void CooccurrenceSweep::MoveFaces(Pairs& pairs) const
     const PairCode* codes = pairs.At(pairs.First[0] + x, pairs.First[1]);
     const auto at = [codes, &pairs](Index line)
     { return codes + (line - pairs.First[1]) * pairs.Count[2]; };
-    trivariate::MoveFaces(this->Tables, &pairs.SumFaces[x * SumWidth],
-      &pairs.CountFaces[x * this->Tables.CountWidth], { at(pairs.Lines.End), at(lines.End) },
-      { at(pairs.Lines.Begin), at(lines.Begin) });
+    MoveFace(this->Tables, &pairs.Faces[x * this->Tables.RowWidth],
+      { at(pairs.Lines.End), at(lines.End) }, { at(pairs.Lines.Begin), at(lines.Begin) });
   }
   pairs.Lines = lines;
 }
@@ -322,8 +305,8 @@ void CooccurrenceSweep::MoveFaces(Pairs& pairs) const
 void CooccurrenceSweep::NextLine(CooccurrenceSums* sums, double* maximalCorrelations)
 {
   std::fill(this->CodeCounts.begin(), this->CodeCounts.end(), PairCount(0));
-  std::fill(this->Counts.begin(), this->Counts.end(), PairCount(0));
-  MovingWindow window{ this->Tables, this->Counts.data(), this->CodeCounts.data(), {}, 0 };
+  std::fill(this->Row.begin(), this->Row.end(), RowWord(0));
+  MovingWindow window{ this->Tables, this->Row.data(), this->CodeCounts.data(), 0 };
   for (Pairs& pairs : this->Directions)
   {
     this->MoveFaces(pairs);
@@ -331,32 +314,45 @@ void CooccurrenceSweep::NextLine(CooccurrenceSums* sums, double* maximalCorrelat
   const Index begin = this->Tile.Begin[0];
   for (Index x = begin; x < this->Tile.End[0]; ++x)
   {
+    bool moved = x == begin;
     for (const Pairs& pairs : this->Directions)
     {
       const Interval columns = this->Window(x, 0, pairs.Direction);
       const Interval before = x > begin ? this->Window(x - 1, 0, pairs.Direction)
                                         : Interval{ columns.Begin, columns.Begin };
-      const Index length = (pairs.Lines.End - pairs.Lines.Begin) * pairs.Count[2];
-      const auto move = [&](auto step, Index column)
+      const auto face = [this, &pairs](Index column)
       {
-        const Index at = column - pairs.First[0];
         const PairCode* codes = pairs.At(column, pairs.Lines.Begin);
-        step(window, &pairs.SumFaces[at * SumWidth],
-          &pairs.CountFaces[at * this->Tables.CountWidth], { codes, codes + length });
+        return Face{ &pairs.Faces[(column - pairs.First[0]) * this->Tables.RowWidth],
+          { codes, codes + (pairs.Lines.End - pairs.Lines.Begin) * pairs.Count[2] } };
       };
+      if (before.End + 1 == columns.End && before.Begin + 1 == columns.Begin &&
+          SameCodes(face(before.End), face(before.Begin)))
+      {
+        continue;
+      }
+      moved = true;
       for (Index column = before.End; column < columns.End; ++column)
       {
-        move(Come, column);
+        Come(window, face(column));
       }
       for (Index column = before.Begin; column < columns.Begin; ++column)
       {
-        move(Go, column);
+        Go(window, face(column));
       }
     }
-    Summarise(window, sums[x - begin]);
+    const Index at = x - begin;
+    if (!moved)
+    {
+      sums[at] = sums[at - 1];
+    }
+    else
+    {
+      Summarise(window, sums[at]);
+    }
     if (maximalCorrelations)
     {
-      maximalCorrelations[x - begin] = this->MaximalCorrelation();
+      maximalCorrelations[at] = moved ? this->MaximalCorrelation() : maximalCorrelations[at - 1];
     }
   }
   ++this->Line;

@@ -24,22 +24,25 @@ using PairCount = std::uint16_t;
 /// and the sum of squares is taken with signed numbers.
 constexpr Index MostPairs = 32767;
 
+/// A piece of a row, added and subtracted as a whole: one sum, or four counts that never carry.
+using RowWord = std::uint64_t;
+
 /// What codes stand for and add to the sums of a window of at most `mostPairs` pairs.
 struct PairTables
 {
-  /// The first columns of a row are those of CooccurrenceSums: Pairs, EqualPairs, Sums, ...
-  static constexpr int SumWidth = 16;
-  /// Rows of counts are a multiple of this long.
-  static constexpr int CountBlock = 64;
+  /// The first words of a row are sums, in the order of CooccurrenceSums: Pairs, EqualPairs, ...
+  static constexpr int SumWords = 13;
+  /// After them counts: of the G levels, the G differences, the 2 G - 1 sums. Rows are a multiple
+  /// of this long.
+  static constexpr int RowBlock = 16;
 
   int Levels;
   CooccurrenceUnits Units;
   int Unequal;                         ///< first code of a pair of two levels; before: one level
   int Codes;                           ///< their number, a multiple of 16
-  int CountWidth;                      ///< a row: counts of levels, of differences, of sums
+  int RowWidth;                        ///< words
   std::vector<PairCode> CodeOf;        ///< [i * Levels + j]
-  std::vector<std::int64_t> SumRows;   ///< [code * SumWidth + column]
-  std::vector<PairCount> CountRows;    ///< [code * CountWidth + column]
+  std::vector<RowWord> Rows;           ///< [code * RowWidth + word]
   std::vector<std::int64_t> NLogN;     ///< [n], up to twice the pairs
   std::vector<std::int64_t> NextNLogN; ///< [n] = NLogN[n + 1] - NLogN[n]
 
@@ -57,7 +60,8 @@ public:
   /// Starts on a box one voxel thick in z, before its first line.
   void Begin(const VoxelBox& tile);
 
-  /// The next line's windows: their sums, and (where not null) f14 of their matrices.
+  /// The next line's windows: their sums, and (where not null) f14 of their matrices. Sums of
+  /// windows whose pairs are the same are the same.
   void NextLine(CooccurrenceSums* sums, double* maximalCorrelations);
 
 private:
@@ -71,11 +75,10 @@ private:
   struct Pairs
   {
     PairDirection Direction;
-    std::array<Index, 3> First, Count;  ///< low corners that the tile's windows reach
-    std::vector<PairCode> Codes;        ///< z fastest, then y, so that a face is contiguous
-    std::vector<std::int64_t> SumFaces; ///< a row for each x
-    std::vector<PairCount> CountFaces;
-    Interval Lines; ///< those in the faces
+    std::array<Index, 3> First, Count; ///< low corners that the tile's windows reach
+    std::vector<PairCode> Codes;       ///< z fastest, then y, so that a face is contiguous
+    std::vector<RowWord> Faces;        ///< a row for each x
+    Interval Lines;                    ///< those in the faces
 
     const PairCode* At(Index x, Index y) const
     {
@@ -91,7 +94,8 @@ private:
   VoxelBox Tile;
   Index Line = 0;
   std::vector<Pairs> Directions;
-  std::vector<PairCount> CodeCounts, Counts;
+  std::vector<PairCount> CodeCounts;
+  std::vector<RowWord> Row;
 
   Interval Window(Index at, int axis, const PairDirection& direction) const;
   void EncodePairs(Pairs& pairs) const;

@@ -13,7 +13,7 @@ using A = TextureAttribute;
 
 namespace
 {
-// The central moments of a distribution of integers.
+// The central moments of a distribution of integers that are not negative.
 struct CentralMoments
 {
   double Mean, Second, Third, Fourth;
@@ -22,15 +22,16 @@ struct CentralMoments
   // sums are exact and small: nothing cancels in what remains.
   CentralMoments(std::int64_t n, const std::array<std::int64_t, 4>& sums)
   {
-    const std::int64_t c = (2 * sums[0] + n) / (2 * n);
+    const double inverse = 1.0 / n;
+    this->Mean = sums[0] * inverse;
+    const std::int64_t c = static_cast<std::int64_t>(this->Mean + 0.5);
     const std::int64_t first = sums[0] - c * n;
     const std::int64_t second = sums[1] - c * (2 * sums[0] - c * n);
     const std::int64_t third = sums[2] - c * (3 * sums[1] - c * (3 * sums[0] - c * n));
     const std::int64_t fourth =
       sums[3] - c * (4 * sums[2] - c * (6 * sums[1] - c * (4 * sums[0] - c * n)));
-    const double inverse = 1.0 / n, shift = first * inverse, square = shift * shift;
+    const double shift = first * inverse, square = shift * shift;
     const double m2 = second * inverse, m3 = third * inverse;
-    this->Mean = sums[0] * inverse;
     this->Second = m2 - square;
     this->Third = m3 - shift * (3.0 * m2 - 2.0 * square);
     this->Fourth = fourth * inverse - shift * (4.0 * m3 - shift * (6.0 * m2 - 3.0 * square));
@@ -43,6 +44,68 @@ CooccurrenceSums OnePair(int levels)
   CooccurrenceMatrix matrix(levels);
   matrix.Add(0, 0);
   return SumsOf(matrix);
+}
+
+// At least one pair.
+void AttributesOfPairs(const CooccurrenceSums& sums, TextureAttributeValues& values)
+{
+  const double pairs = sums.Pairs, inverse = 1.0 / pairs;
+  const CentralMoments s(sums.Pairs, sums.Sums);
+  const CentralMoments d(sums.Pairs, { sums.Differences[0], sums.Differences[1], 0, 0 });
+  const double contrast = sums.Differences[1] * inverse;
+  const double inverseUnit = inverse / sums.Units.Inverse;
+
+  values.fill(0.0);
+  const auto set = [&values](A attribute, double value)
+  { values[static_cast<int>(attribute)] = value; };
+  set(A::JointMaximum, 0.5 * inverse * sums.LargestCount);
+  set(A::AngularSecondMoment, 0.25 * inverse * inverse * sums.Squares);
+  set(A::JointAverage, 0.5 * s.Mean);
+  set(A::SumAverage, s.Mean);
+  set(A::DifferenceAverage, d.Mean);
+  set(A::Dissimilarity, d.Mean);
+  set(A::Contrast, contrast);
+  // s^2 + d^2 = 2 (i^2 + j^2) and s^2 - d^2 = 4 i j.
+  set(A::JointVariance, 0.25 * (s.Second + contrast));
+  set(A::Autocorrelation, 0.25 * inverse * (sums.Sums[1] - sums.Differences[1]));
+  set(A::SumVariance, s.Second);
+  set(A::ClusterTendency, s.Second);
+  set(A::DifferenceVariance, d.Second);
+  set(A::ClusterShade, s.Third);
+  set(A::ClusterProminence, s.Fourth);
+  set(A::InverseDifference, inverseUnit * sums.Inverses[0]);
+  set(A::NormalisedInverseDifference, inverseUnit * sums.Inverses[1]);
+  set(A::InverseDifferenceMoment, inverseUnit * sums.Inverses[2]);
+  set(A::NormalisedInverseDifferenceMoment, inverseUnit * sums.Inverses[3]);
+  set(A::InverseVariance, inverseUnit * sums.Inverses[4]);
+  if (s.Second + contrast == 0.0)
+  {
+    set(A::Correlation, 1.0); // one level: no entropy either
+    return;
+  }
+  set(A::Correlation, (s.Second - contrast) / (s.Second + contrast));
+
+  // -sum (n / N) log2(n / N) = (N log2 N - sum n log2 n) / N; a pair of different levels has two
+  // entries of the matrix with half of its probability each. All in integers until the division.
+  const std::int64_t unit = static_cast<std::int64_t>(sums.Units.Logarithm);
+  const std::int64_t all = sums.TotalLogarithm, pairBits = 2 * sums.Pairs * unit,
+                     equalBits = 2 * sums.EqualPairs * unit;
+  const double entropyUnit = 0.5 * inverse / sums.Units.Logarithm;
+  const auto entropy = [entropyUnit](std::int64_t value)
+  { return std::max(0.0, entropyUnit * value); };
+  const double level = entropy(all - sums.LevelLogarithms);
+  set(A::JointEntropy, entropy(all - equalBits - 2 * sums.JointLogarithms));
+  set(A::SumEntropy, entropy(all - pairBits - 2 * sums.SumLogarithms));
+  set(A::DifferenceEntropy, entropy(all - pairBits - 2 * sums.DifferenceLogarithms));
+  const double information =
+    entropy(all + equalBits + 2 * (sums.JointLogarithms - sums.LevelLogarithms));
+  // Less is rounding: i and j are independent. The square root of f13 would make much of it.
+  constexpr double leastInformation = 1e-13;
+  if (information > leastInformation)
+  {
+    set(A::InformationCorrelation1, -information / level);
+    set(A::InformationCorrelation2, std::sqrt(1.0 - std::exp(-2.0 * information)));
+  }
 }
 }
 
@@ -147,76 +210,23 @@ double NormalisedTextureAttribute(TextureAttribute attribute, int levels, double
 }
 
 //------------------------------------------------------------------------------
-TextureAttributeValues ComputeTextureAttributes(const CooccurrenceSums& sums)
+void ComputeTextureAttributes(const CooccurrenceSums& sums, TextureAttributeValues& values)
 {
-  if (sums.Pairs == 0)
+  if (sums.Pairs > 0)
   {
-    return ComputeTextureAttributes(OnePair(sums.Levels));
+    AttributesOfPairs(sums, values);
   }
-  const double pairs = sums.Pairs, inverse = 1.0 / pairs;
-  const CentralMoments s(sums.Pairs, sums.Sums);
-  const CentralMoments d(sums.Pairs, { sums.Differences[0], sums.Differences[1], 0, 0 });
-  const double contrast = sums.Differences[1] * inverse;
-  const double inverseUnit = inverse / sums.Units.Inverse;
-
-  TextureAttributeValues values = {};
-  const auto set = [&values](A attribute, double value)
-  { values[static_cast<int>(attribute)] = value; };
-  set(A::JointMaximum, 0.5 * inverse * sums.LargestCount);
-  set(A::AngularSecondMoment, 0.25 * inverse * inverse * sums.Squares);
-  set(A::JointAverage, 0.5 * s.Mean);
-  set(A::SumAverage, s.Mean);
-  set(A::DifferenceAverage, d.Mean);
-  set(A::Dissimilarity, d.Mean);
-  set(A::Contrast, contrast);
-  // s^2 + d^2 = 2 (i^2 + j^2) and s^2 - d^2 = 4 i j.
-  set(A::JointVariance, 0.25 * (s.Second + contrast));
-  set(A::Autocorrelation, 0.25 * inverse * (sums.Sums[1] - sums.Differences[1]));
-  set(A::SumVariance, s.Second);
-  set(A::ClusterTendency, s.Second);
-  set(A::DifferenceVariance, d.Second);
-  set(A::ClusterShade, s.Third);
-  set(A::ClusterProminence, s.Fourth);
-  set(A::InverseDifference, inverseUnit * sums.Inverses[0]);
-  set(A::NormalisedInverseDifference, inverseUnit * sums.Inverses[1]);
-  set(A::InverseDifferenceMoment, inverseUnit * sums.Inverses[2]);
-  set(A::NormalisedInverseDifferenceMoment, inverseUnit * sums.Inverses[3]);
-  set(A::InverseVariance, inverseUnit * sums.Inverses[4]);
-  if (s.Second + contrast == 0.0)
+  else
   {
-    set(A::Correlation, 1.0); // one level: no entropy either
-    return values;
+    AttributesOfPairs(OnePair(sums.Levels), values);
   }
-  set(A::Correlation, (s.Second - contrast) / (s.Second + contrast));
-
-  // -sum (n / N) log2(n / N) = (N log2 N - sum n log2 n) / N; a pair of different levels has two
-  // entries of the matrix with half of its probability each. All in integers until the division.
-  const std::int64_t unit = static_cast<std::int64_t>(sums.Units.Logarithm);
-  const std::int64_t all = sums.TotalLogarithm, pairBits = 2 * sums.Pairs * unit,
-                     equalBits = 2 * sums.EqualPairs * unit;
-  const double entropyUnit = 0.5 * inverse / sums.Units.Logarithm;
-  const auto entropy = [entropyUnit](std::int64_t value)
-  { return std::max(0.0, entropyUnit * value); };
-  const double level = entropy(all - sums.LevelLogarithms);
-  set(A::JointEntropy, entropy(all - equalBits - 2 * sums.JointLogarithms));
-  set(A::SumEntropy, entropy(all - pairBits - 2 * sums.SumLogarithms));
-  set(A::DifferenceEntropy, entropy(all - pairBits - 2 * sums.DifferenceLogarithms));
-  const double information =
-    entropy(all + equalBits + 2 * (sums.JointLogarithms - sums.LevelLogarithms));
-  // Less is rounding: i and j are independent. The square root of f13 would make much of it.
-  constexpr double leastInformation = 1e-13;
-  if (information > leastInformation)
-  {
-    set(A::InformationCorrelation1, -information / level);
-    set(A::InformationCorrelation2, std::sqrt(-std::expm1(-2.0 * information)));
-  }
-  return values;
 }
 
 //------------------------------------------------------------------------------
 TextureAttributeValues ComputeTextureAttributes(const CooccurrenceMatrix& matrix)
 {
-  TextureAttributeValues values = ComputeTextureAttributes(SumsOf(matrix));
+  TextureAttributeValues values;
+  ComputeTextureAttributes(SumsOf(matrix), values);
   values[static_cast<int>(A::MaximalCorrelationCoefficient)] =
     MaximalCorrelationCoefficient(matrix);
   return values;

@@ -108,8 +108,8 @@ std::pair<double, double> TextureAttributeBounds(TextureAttribute attribute, int
 /// value from its bounds to [0, 1]; 0 where the bounds are equal.
 double NormalisedTextureAttribute(TextureAttribute attribute, int levels, double value);
 
-/// All attributes but f14, which these sums do not tell (0 is returned for it).
-TextureAttributeValues ComputeTextureAttributes(const CooccurrenceSums& sums);
+/// All attributes but f14, which these sums do not tell (it becomes 0).
+void ComputeTextureAttributes(const CooccurrenceSums& sums, TextureAttributeValues& values);
 
 /// All attributes.
 TextureAttributeValues ComputeTextureAttributes(const CooccurrenceMatrix& matrix);

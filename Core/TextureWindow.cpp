@@ -20,6 +20,8 @@ using Size3 = std::array<Index, 3>;
 // Voxels of a tile, what a thread works on at a time: small enough for its numbers to stay in the
 // cache, large enough for the first window of a line and the first line to cost little.
 constexpr Size3 TileSize = { 96, 16, 1 };
+// The same with eigenproblems, which cost more than all else: work is stopped between tiles.
+constexpr Size3 SmallTileSize = { 96, 1, 1 };
 
 // The entries of a direction tensor: its axes, and its name.
 struct TensorEntry
@@ -154,13 +156,18 @@ public:
     CooccurrenceSweep sweep(
       this->Tables, this->Levels, this->Size, this->Options.Radius, directions);
     sweep.Begin(tile);
+    TextureAttributeValues values = {};
     std::size_t at = 0;
     for (Index y = tile.Begin[1]; y < tile.End[1]; ++y)
     {
       sweep.NextLine(sums.data(), this->WithMaximalCorrelation ? correlations.data() : nullptr);
       for (Index x = 0; x < width; ++x)
       {
-        TextureAttributeValues values = ComputeTextureAttributes(sums[x]);
+        // Where nothing changes from voxel to voxel, nothing is to be computed.
+        if (x == 0 || !(sums[x] == sums[x - 1]))
+        {
+          ComputeTextureAttributes(sums[x], values);
+        }
         if (this->WithMaximalCorrelation)
         {
           values[static_cast<int>(TextureAttribute::MaximalCorrelationCoefficient)] =
@@ -291,15 +298,16 @@ private:
 // [begin, end) cut into tiles.
 struct Tiling
 {
-  Size3 Begin, End, Count;
+  Size3 Begin, End, Tiles, Count;
 
-  Tiling(const Size3& begin, const Size3& end)
+  Tiling(const Size3& begin, const Size3& end, const Size3& tileSize)
     : Begin(begin)
     , End(end)
+    , Tiles(tileSize)
   {
     for (int a = 0; a < 3; ++a)
     {
-      this->Count[a] = std::max<Index>(0, end[a] - begin[a] + TileSize[a] - 1) / TileSize[a];
+      this->Count[a] = std::max<Index>(0, end[a] - begin[a] + tileSize[a] - 1) / tileSize[a];
     }
   }
 
@@ -312,8 +320,8 @@ struct Tiling
     VoxelBox tile;
     for (int a = 0; a < 3; ++a)
     {
-      tile.Begin[a] = this->Begin[a] + place[a] * TileSize[a];
-      tile.End[a] = std::min(this->End[a], tile.Begin[a] + TileSize[a]);
+      tile.Begin[a] = this->Begin[a] + place[a] * this->Tiles[a];
+      tile.End[a] = std::min(this->End[a], tile.Begin[a] + this->Tiles[a]);
     }
     return tile;
   }
@@ -365,7 +373,7 @@ void ComputeTexture(const std::uint8_t* levels, const std::array<Index, 3>& size
 {
   CheckOptions(options, out.size());
   const Texture texture(levels, size, options);
-  const Tiling tiling(begin, end);
+  const Tiling tiling(begin, end, texture.WithMaximalCorrelation ? SmallTileSize : TileSize);
   const Index count = tiling.Size();
   // How many tiles take a few tenths of a second depends on the options.
   constexpr double longest = 0.3;

@@ -149,7 +149,8 @@ TEST(TextureAttributes, SumsGiveWhatTheDefinitionsSay)
     for (int trial = 0; trial < 40; ++trial)
     {
       const CooccurrenceMatrix matrix = RandomMatrix(levels, 1 + random() % 900, random);
-      const TextureAttributeValues values = ComputeTextureAttributes(SumsOf(matrix));
+      TextureAttributeValues values;
+      ComputeTextureAttributes(SumsOf(matrix), values);
       const TextureAttributeValues plain = PlainAttributes(matrix);
       for (int k = 0; k + 1 < TextureAttributeCount; ++k)
       {
