@@ -1,0 +1,516 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TextureSegmentation.h"
+
+#include "InterfacePlacement.h"
+#include "SegmentAttributes.h"
+#include "SegmentShells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+namespace trivariate
+{
+namespace
+{
+using Size3 = std::array<Index, 3>;
+
+// Clusters are sought anew within the segments so far if so many sampled voxels are well inside.
+constexpr Index LEAST_SURE_SAMPLES = 200;
+
+Index Volume(const Size3& size)
+{
+  return size[0] * size[1] * size[2];
+}
+
+Size3 OwnSize(const SegmentationPiece& piece)
+{
+  return { piece.End[0] - piece.Begin[0], piece.End[1] - piece.Begin[1],
+    piece.End[2] - piece.Begin[2] };
+}
+
+// Calls f(place among the own voxels, place in the piece, place in the volume) row by row.
+template <typename F>
+void ForOwnRows(const SegmentationPiece& piece, const F& f)
+{
+  const Size3 own = OwnSize(piece);
+  for (Index k = 0; k < own[2]; ++k)
+  {
+    for (Index j = 0; j < own[1]; ++j)
+    {
+      const Size3 p = { piece.Begin[0], piece.Begin[1] + j, piece.Begin[2] + k };
+      f(own[0] * (j + own[1] * k), p[0] + piece.Size[0] * (p[1] + piece.Size[1] * p[2]),
+        p[0] + piece.Low[0] +
+          piece.Whole[0] * (p[1] + piece.Low[1] + piece.Whole[1] * (p[2] + piece.Low[2])));
+    }
+  }
+}
+
+// The own voxels of a piece as a part of the volume, half open.
+struct Box
+{
+  Size3 Low, High;
+
+  bool Has(Index inVolume, const Size3& whole) const
+  {
+    const Size3 p = { inVolume % whole[0], inVolume / whole[0] % whole[1],
+      inVolume / (whole[0] * whole[1]) };
+    return p[0] >= this->Low[0] && p[0] < this->High[0] && p[1] >= this->Low[1] &&
+           p[1] < this->High[1] && p[2] >= this->Low[2] && p[2] < this->High[2];
+  }
+};
+
+Box OwnBox(const SegmentationPiece& piece)
+{
+  Box box;
+  for (int a = 0; a < 3; ++a)
+  {
+    box.Low[a] = piece.Low[a] + piece.Begin[a];
+    box.High[a] = piece.Low[a] + piece.End[a];
+  }
+  return box;
+}
+
+//------------------------------------------------------------------------------
+// One byte a voxel of the whole volume, from what each process has of it.
+std::vector<std::uint8_t> GatherVolume(
+  const SegmentationPiece& piece, const std::vector<std::uint8_t>& mine, const GatherBytes& gather)
+{
+  const Size3 own = OwnSize(piece);
+  std::vector<std::uint8_t> message;
+  ForOwnRows(piece,
+    [&](Index place, Index, Index inVolume)
+    {
+      const Index head[2] = { inVolume, own[0] };
+      const std::size_t at = message.size();
+      message.resize(at + sizeof(head) + own[0]);
+      std::memcpy(&message[at], head, sizeof(head));
+      std::copy_n(&mine[place], own[0], &message[at + sizeof(head)]);
+    });
+  const std::vector<std::uint8_t> all = gather(message);
+  std::vector<std::uint8_t> volume(Volume(piece.Whole), 0);
+  for (std::size_t at = 0; at < all.size();)
+  {
+    Index head[2];
+    std::memcpy(head, &all[at], sizeof(head));
+    std::copy_n(&all[at + sizeof(head)], head[1], &volume[head[0]]);
+    at += sizeof(head) + head[1];
+  }
+  return volume;
+}
+
+//------------------------------------------------------------------------------
+// The sample's rows before smoothing as the feature space wants them; of the sure voxels only, if
+// there is a mask of the volume.
+struct FeatureRows
+{
+  std::vector<double> Rows, Left, Right;
+
+  FeatureRows(const AttributeSample& sample, int attributes, Index lag, const Size3& whole,
+    const std::vector<std::uint8_t>& sure, const std::vector<Label>& labels)
+  {
+    const Index steps[3] = { lag, lag * whole[0], lag * whole[0] * whole[1] };
+    for (std::size_t i = 0; i < sample.Keys.size(); ++i)
+    {
+      const Index key = sample.Keys[i];
+      const double* row = &sample.Rows[4 * i * attributes];
+      if (!sure.empty() && !sure[key])
+      {
+        continue;
+      }
+      this->Rows.insert(this->Rows.end(), row, row + attributes);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double* partner = row + (axis + 1) * attributes;
+        if (std::isnan(partner[0]) ||
+            (!sure.empty() &&
+              (!sure[key + steps[axis]] || labels[key + steps[axis]] != labels[key])))
+        {
+          continue;
+        }
+        this->Left.insert(this->Left.end(), row, row + attributes);
+        this->Right.insert(this->Right.end(), partner, partner + attributes);
+      }
+    }
+  }
+};
+
+PointRows View(const std::vector<double>& values, int dimensions)
+{
+  return { static_cast<Index>(values.size()) / std::max(1, dimensions), dimensions, values.data() };
+}
+
+//------------------------------------------------------------------------------
+class Segmentation
+{
+public:
+  Segmentation(const SegmentationPiece& piece, const SegmentationOptions& options,
+    const GatherBytes& gather, const Execution& execution)
+    : Piece(piece)
+    , Options(options)
+    , Gather(gather)
+    , Execute(execution)
+    , Attributes(piece, options, execution.Part(0.0, 0.6))
+  {
+  }
+
+  SegmentationResult Run()
+  {
+    if (this->Options.KeepAttributes)
+    {
+      this->Result.Attributes = this->Attributes.OwnTexture();
+    }
+    this->Result.AttributeNames = this->Attributes.Names();
+    this->Levels = GatherVolume(this->Piece, this->OwnLevels(), this->Gather);
+    this->Raw = this->Attributes.Sample(true, this->Gather);
+    this->Measure({}, {});
+    if (this->Space.Dimensions == 0)
+    {
+      this->Labels.assign(Volume(this->Piece.Whole), 0); // nothing varies: one segment
+      this->Clusters = 1;
+    }
+    else
+    {
+      this->Attributes.Smooth(this->Space, this->Execute.Part(0.6, 0.7));
+      this->Smooth = this->Attributes.Sample(false, this->Gather);
+      this->Cluster({});
+      this->Clean(this->Execute.Part(0.75, 0.85));
+      this->Retry();
+    }
+    this->Number();
+    return std::move(this->Result);
+  }
+
+private:
+  std::vector<std::uint8_t> OwnLevels() const
+  {
+    const Size3 own = OwnSize(this->Piece);
+    std::vector<std::uint8_t> levels(std::max<Index>(0, Volume(own)));
+    ForOwnRows(this->Piece, [&](Index place, Index inPiece, Index)
+      { std::copy_n(&this->Piece.Levels[inPiece], own[0], &levels[place]); });
+    return levels;
+  }
+
+  // The space in which attributes are compared.
+  void Measure(const std::vector<std::uint8_t>& sure, const std::vector<Label>& labels)
+  {
+    const int n = this->Attributes.Count();
+    const FeatureRows rows(
+      this->Raw, n, SegmentAttributes::Lag(this->Options.Texture), this->Piece.Whole, sure, labels);
+    this->Space = MakeFeatureSpace(
+      { View(rows.Rows, n), View(rows.Left, n), View(rows.Right, n), this->Attributes.Weights() });
+  }
+
+  // Clusters of the sample, or of its sure voxels, then labels of all voxels.
+  void Cluster(const std::vector<std::uint8_t>& sure)
+  {
+    const int n = this->Attributes.Count(), dimensions = this->Space.Dimensions;
+    std::vector<double> points, point(dimensions);
+    for (std::size_t i = 0; i < this->Smooth.Keys.size(); ++i)
+    {
+      if (sure.empty() || sure[this->Smooth.Keys[i]])
+      {
+        this->Space.Apply(&this->Smooth.Rows[i * n], point.data());
+        points.insert(points.end(), point.begin(), point.end());
+      }
+    }
+    const KMeansResult clusters = this->Choose(View(points, dimensions));
+    this->Clusters = clusters.Clusters;
+    this->Centres = clusters.Centres;
+
+    const Size3 own = OwnSize(this->Piece);
+    std::vector<Label> mine(std::max<Index>(0, Volume(own)));
+    this->Execute.ParallelFor(own[1] * own[2],
+      [&](Index begin, Index end)
+      {
+        std::vector<double> row(n), coordinates(dimensions);
+        for (Index line = begin; line < end; ++line)
+        {
+          for (Index i = 0; i < own[0]; ++i)
+          {
+            this->Attributes.Row(i, line % own[1], line / own[1], row.data());
+            this->Space.Apply(row.data(), coordinates.data());
+            mine[i + own[0] * line] =
+              static_cast<Label>(NearestCentre(coordinates.data(), dimensions, this->Centres));
+          }
+        }
+      });
+    this->Labels = GatherVolume(this->Piece, mine, this->Gather);
+  }
+
+  KMeansResult Choose(const PointRows& points)
+  {
+    const Execution part = this->Execute.Part(0.7, 0.75);
+    if (this->Options.Segments > 0)
+    {
+      KMeansResult result = KMeans(points, this->Options.Segments, {}, part);
+      this->Result.Criterion = { { result.Clusters,
+        SimplifiedSilhouette(points, result.Centres, part) } };
+      return result;
+    }
+    KMeansResult best;
+    double most = -1.0;
+    for (int k = 2; k <= MaximumAutomaticSegments; ++k)
+    {
+      KMeansResult result = KMeans(points, k, {}, part);
+      if (result.Clusters < k && k > 2)
+      {
+        break; // there are no more distinct points
+      }
+      const double criterion = SimplifiedSilhouette(points, result.Centres, part);
+      this->Result.Criterion.push_back({ k, criterion });
+      if (criterion > most)
+      {
+        most = criterion;
+        best = std::move(result);
+      }
+    }
+    return best;
+  }
+
+  // Shells, interfaces and small components.
+  void Clean(const Execution& execution)
+  {
+    const Size3& size = this->Piece.Whole;
+    const int radius = this->Options.Texture.Radius;
+    const Index window = 2 * radius + 1;
+    const Index minimum = this->Options.MinimumSegmentSize > 0 ? this->Options.MinimumSegmentSize
+                                                               : window * window * window;
+    const PointRows centres = View(this->Centres, this->Space.Dimensions);
+    MergeSmallComponents(this->Labels, size, minimum);
+    RemoveShells(this->Labels, size, centres, (radius + 1) / 2, execution);
+    PlacementOptions placement;
+    placement.GreyLevels = this->Options.Texture.GreyLevels;
+    placement.Reach = radius;
+    PlaceInterfaces(this->Labels, this->Levels, size, this->Clusters, placement, execution);
+    RemoveShells(this->Labels, size, centres, 1, execution);
+    MergeSmallComponents(this->Labels, size, minimum);
+  }
+
+  int Present() const
+  {
+    std::array<bool, 256> present = {};
+    for (const Label label : this->Labels)
+    {
+      present[label] = true;
+    }
+    return static_cast<int>(std::count(present.begin(), present.end(), true));
+  }
+
+  // A cluster of mixtures has taken the place of a segment: look for it away from interfaces.
+  void Retry()
+  {
+    const int found = this->Present();
+    if (this->Options.Segments == 0 || found == this->Clusters)
+    {
+      return;
+    }
+    const int radius = this->Options.Texture.Radius;
+    std::vector<std::uint8_t> sure =
+      NearInterfaces(this->Labels, this->Piece.Whole, 2 * radius, this->Execute);
+    std::transform(sure.begin(), sure.end(), sure.begin(),
+      [](std::uint8_t near) { return static_cast<std::uint8_t>(!near); });
+    if (std::count_if(this->Raw.Keys.begin(), this->Raw.Keys.end(),
+          [&sure](Index key) { return sure[key] != 0; }) < LEAST_SURE_SAMPLES)
+    {
+      return;
+    }
+    const std::vector<Label> before = this->Labels;
+    const FeatureSpace spaceBefore = this->Space;
+    this->Measure(sure, before);
+    if (this->Space.Dimensions > 0)
+    {
+      this->Cluster(sure);
+      this->Clean(this->Execute.Part(0.85, 0.98));
+    }
+    if (this->Space.Dimensions == 0 || this->Present() <= found)
+    {
+      this->Space = spaceBefore;
+      this->Labels = before;
+    }
+  }
+
+  // Labels by ascending mean density. Sums are of integers, so that their order does not matter.
+  void Number()
+  {
+    const Size3 own = OwnSize(this->Piece);
+    std::array<Index, 256> sizes = {};
+    for (const Label label : this->Labels)
+    {
+      ++sizes[label];
+    }
+    const std::vector<double> means = this->MeanDensities(sizes);
+    std::vector<int> order;
+    for (int l = 0; l < 256; ++l)
+    {
+      if (sizes[l] > 0)
+      {
+        order.push_back(l);
+      }
+    }
+    std::stable_sort(
+      order.begin(), order.end(), [&means](int a, int b) { return means[a] < means[b]; });
+    std::array<Label, 256> rank = {};
+    for (std::size_t s = 0; s < order.size(); ++s)
+    {
+      rank[order[s]] = static_cast<Label>(s);
+      this->Result.Sizes.push_back(sizes[order[s]]);
+      this->Result.MeanDensities.push_back(means[order[s]]);
+    }
+    this->Result.Segments = static_cast<int>(order.size());
+    this->Result.Labels.resize(std::max<Index>(0, Volume(own)));
+    ForOwnRows(this->Piece,
+      [&](Index place, Index, Index inVolume)
+      {
+        std::transform(&this->Labels[inVolume], &this->Labels[inVolume] + own[0],
+          &this->Result.Labels[place], [&rank](Label label) { return rank[label]; });
+      });
+    this->MeanAttributes(rank);
+  }
+
+  // Of each label, to 1e-9 of the range of the sample.
+  std::vector<double> MeanDensities(const std::array<Index, 256>& sizes) const
+  {
+    struct Bounds
+    {
+      float Low = std::numeric_limits<float>::infinity();
+      float High = -std::numeric_limits<float>::infinity();
+    } mine;
+    const Size3 own = OwnSize(this->Piece);
+    ForOwnRows(this->Piece,
+      [&](Index, Index inPiece, Index)
+      {
+        const float* row = &this->Piece.Density[inPiece];
+        mine.Low = std::min(mine.Low, *std::min_element(row, row + own[0]));
+        mine.High = std::max(mine.High, *std::max_element(row, row + own[0]));
+      });
+    Bounds range;
+    for (const Bounds& bounds : this->GatherAll(std::vector<Bounds>{ mine }))
+    {
+      range.Low = std::min(range.Low, bounds.Low);
+      range.High = std::max(range.High, bounds.High);
+    }
+    const double width = static_cast<double>(range.High) - range.Low;
+    const double unit = width > 0.0 ? 0x1p30 / width : 0.0;
+    const std::vector<Box> boxes = this->GatherAll(std::vector<Box>{ OwnBox(this->Piece) });
+    std::vector<std::int64_t> sums(256, 0);
+    ForOwnRows(this->Piece,
+      [&](Index, Index inPiece, Index inVolume)
+      {
+        for (Index i = 0; i < own[0]; ++i)
+        {
+          // A voxel of several pieces counts in the first of them.
+          const bool counted = std::any_of(boxes.begin(), boxes.begin() + this->Piece.Process,
+            [&](const Box& box) { return box.Has(inVolume + i, this->Piece.Whole); });
+          if (!counted)
+          {
+            sums[this->Labels[inVolume + i]] += std::llround(
+              (static_cast<double>(this->Piece.Density[inPiece + i]) - range.Low) * unit);
+          }
+        }
+      });
+    const std::vector<std::int64_t> all = this->GatherAll(sums);
+    std::vector<double> means(256, 0.0);
+    for (int l = 0; l < 256; ++l)
+    {
+      std::int64_t sum = 0;
+      for (std::size_t at = 0; at < all.size(); at += sums.size())
+      {
+        sum += all[at + l];
+      }
+      means[l] = sizes[l] > 0 && unit > 0.0
+                   ? range.Low + static_cast<double>(sum) / static_cast<double>(sizes[l]) / unit
+                   : range.Low;
+    }
+    return means;
+  }
+
+  template <typename T>
+  std::vector<T> GatherAll(const std::vector<T>& mine) const
+  {
+    std::vector<std::uint8_t> bytes(mine.size() * sizeof(T));
+    std::memcpy(bytes.data(), mine.data(), bytes.size());
+    bytes = this->Gather(bytes);
+    std::vector<T> all(bytes.size() / sizeof(T));
+    std::memcpy(all.data(), bytes.data(), all.size() * sizeof(T));
+    return all;
+  }
+
+  // Mean rows of the sampled voxels of each segment.
+  void MeanAttributes(const std::array<Label, 256>& rank)
+  {
+    const int n = this->Attributes.Count();
+    const AttributeSample& sample = this->Smooth.Keys.empty() ? this->Raw : this->Smooth;
+    const std::size_t stride = sample.Keys.empty() ? 0 : sample.Rows.size() / sample.Keys.size();
+    this->Result.Centres.assign(static_cast<std::size_t>(this->Result.Segments) * n, 0.0);
+    std::vector<double> counts(this->Result.Segments, 0.0);
+    for (std::size_t i = 0; i < sample.Keys.size(); ++i)
+    {
+      const Label segment = rank[this->Labels[sample.Keys[i]]];
+      counts[segment] += 1.0;
+      for (int a = 0; a < n; ++a)
+      {
+        this->Result.Centres[segment * n + a] += sample.Rows[i * stride + a];
+      }
+    }
+    for (int s = 0; s < this->Result.Segments; ++s)
+    {
+      for (int a = 0; a < n; ++a)
+      {
+        // NaN: so small that no voxel of it was sampled.
+        this->Result.Centres[s * n + a] /= counts[s];
+      }
+    }
+  }
+
+  const SegmentationPiece& Piece;
+  const SegmentationOptions& Options;
+  const GatherBytes& Gather;
+  const Execution& Execute;
+  SegmentAttributes Attributes;
+  AttributeSample Raw, Smooth; // the sample before smoothing (with partners) and after
+  FeatureSpace Space;
+  std::vector<double> Centres; // of the clusters, in the space
+  int Clusters = 0;
+  std::vector<std::uint8_t> Levels; // of the whole volume
+  std::vector<Label> Labels;        // of the whole volume
+  SegmentationResult Result;
+};
+
+//------------------------------------------------------------------------------
+void Check(const SegmentationPiece& piece, const SegmentationOptions& options)
+{
+  if (options.Segments < 0 || options.Segments > MaximumSegments)
+  {
+    throw std::invalid_argument("the number of segments is not in range");
+  }
+  if (Volume(piece.Whole) > std::numeric_limits<std::int32_t>::max())
+  {
+    throw std::length_error("more than 2^31 - 1 voxels");
+  }
+  if (!(options.DensityWeight >= 0.0) || !(options.GradientWeight >= 0.0) ||
+      (options.Texture.Attributes.empty() && options.DensityWeight == 0.0 &&
+        options.GradientWeight == 0.0))
+  {
+    throw std::invalid_argument("there is no attribute to tell segments by");
+  }
+}
+}
+
+//------------------------------------------------------------------------------
+int SegmentationNeighbourhood(const SegmentationOptions& options)
+{
+  return options.Texture.Radius + SegmentAttributes::Lag(options.Texture);
+}
+
+SegmentationResult SegmentByTexture(const SegmentationPiece& piece,
+  const SegmentationOptions& options, const GatherBytes& gather, const Execution& execution)
+{
+  Check(piece, options);
+  return Segmentation(piece, options, gather, execution).Run();
+}
+}
