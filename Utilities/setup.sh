@@ -11,7 +11,7 @@ log=$build_dir/setup.log
 packages=(
   g++ cmake make clang-14 libclang-rt-14-dev
   paraview paraview-dev python3-paraview python3-numpy python3-h5py
-  libeigen3-dev libhdf5-dev libgtest-dev libopenmpi-dev openmpi-bin python3-dev
+  libcgal-dev libeigen3-dev libhdf5-dev libgtest-dev libopenmpi-dev openmpi-bin python3-dev
   qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools
   libboost-dev libdouble-conversion-dev libexpat1-dev libfmt-dev libfreetype-dev libgl-dev
   libglew-dev libjpeg-dev libjsoncpp-dev liblz4-dev liblzma-dev libpng-dev libprotobuf-dev
