@@ -74,7 +74,8 @@ GreyLevels UniformGreyLevels(double low, double high, int count);
  * Integers that span at most `count` values keep their differences: level = value - lowest value.
  * At most `count` distinct integers that span more are numbered in ascending order. Otherwise
  * `count` equal bins between the quantiles `tail` and 1 - tail, so that a few outliers do not
- * flatten the rest; between the extremes where the two quantiles are equal.
+ * flatten the rest; between the extremes where the two quantiles are equal. The result's Count is
+ * the G of matrices and attributes; it is 1 for a single value, and for none.
  */
 GreyLevels AutomaticGreyLevels(const ValueHistogram& histogram, int count, double tail = 0.001);
 
