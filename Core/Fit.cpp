@@ -162,23 +162,30 @@ public:
     while (true)
     {
       const bool isGood = this->IsGoodEnough();
-      if (isGood || !this->RefineOnce(rule))
+      const bool isRefined = !isGood && this->RefineOnce(rule);
+      if (isRefined)
       {
-        this->DropDependentFunctions();
-        this->Solve(
-          FinalTolerance, this->Samples.Mask ? FinalIterationsUnderMask : FinalIterations);
-        this->Result.Rounds.pop_back();
-        this->Measure(true);
-        // The last solve lowers the mean square, but it can raise the largest error again.
-        if (!isGood || this->IsGoodEnough() || !this->RefineOnce(rule))
-        {
-          this->DropEmptyFunctions();
-          return std::move(this->Result);
-        }
+        this->System.Update(spline);
       }
-      this->System.Update(spline);
-      this->Solve(RoundTolerance, RoundIterations);
-      this->Measure(false);
+      else
+      {
+        this->Result.Rounds.pop_back(); // its spline is solved once more, for good
+      }
+      if (isRefined && !RefinementMarks::IsFull(spline.Size(), this->Options.MaximumControlPoints))
+      {
+        this->Solve(RoundTolerance, RoundIterations);
+        this->Measure(false);
+        continue;
+      }
+      this->DropDependentFunctions();
+      this->Solve(FinalTolerance, this->Samples.Mask ? FinalIterationsUnderMask : FinalIterations);
+      this->Measure(true);
+      // The last solve lowers the mean square, but it can raise the largest error again.
+      if (!isGood || this->IsGoodEnough())
+      {
+        this->DropEmptyFunctions();
+        return std::move(this->Result);
+      }
     }
   }
 

@@ -10,12 +10,15 @@ namespace trivariate
 {
 namespace
 {
-// How many functions one round may add. Small steps choose better, large ones are faster; a small
-// spline is cheap to solve and decides where all else goes, so its steps are small.
+// Small steps choose better, large ones are faster. A small spline is cheap to solve and decides
+// where all else goes, so up to this size its steps are small, and the last of them may be as small
+// as it likes.
+constexpr Index LargeSize = 9000;
+
+// How many functions one round may add.
 Index StepOf(Index size)
 {
-  constexpr double sizeOfWholeStep = 9000.0;
-  const double growth = std::clamp(size / sizeOfWholeStep, 0.15, 0.5);
+  const double growth = std::clamp(static_cast<double>(size) / LargeSize, 0.15, 0.5);
   return std::max<Index>(32, static_cast<Index>(growth * size));
 }
 
@@ -98,14 +101,15 @@ bool RefinementMarks::Refine(std::vector<SplitGain> gains, Index maximum, TSplin
     // A single mark may grow more than a step (never more than the maximum allows).
     if (trial.Size() > (count == 1 ? maximum : limit))
     {
-      count = fits > 0 ? 0 : std::min(count - 1, scaled(0.99 * count * wanted / grown));
+      count = fits > 0 ? 0 : std::min(count - 1, scaled(0.95 * count * wanted / grown));
       continue;
     }
     fits = count;
     best = std::move(trial);
     bestRule = std::move(trialRule);
-    // Marks are cheap, rounds are not: the step to the maximum is made in one.
-    if (grown == 0 || size + wanted < maximum - maximum / 200 || IsFull(best.Size(), maximum))
+    // Where marks are cheaper than rounds, the step to the maximum is made in one.
+    const bool isLastStep = size > LargeSize && size + wanted >= maximum - maximum / 200;
+    if (grown == 0 || !isLastStep || IsFull(best.Size(), maximum))
     {
       break;
     }

@@ -96,8 +96,9 @@ std::vector<double> ToStd(const Eigen::VectorXd& v)
   return { v.data(), v.data() + v.size() };
 }
 
-// Solves for random coefficients and compares what the solution and they are at the voxels. Single
-// precision of the matrix limits how well; few voxels a function make it worse.
+// Solves for random coefficients and compares what the solution and they are at the voxels. As the
+// fit does, a second solve corrects what the single precision of the matrix left of the first; few
+// voxels a function make that more.
 void CheckSolve(const Problem& problem, double tolerance, std::mt19937& random)
 {
   const Eigen::MatrixXd collocation = problem.Collocation();
@@ -108,9 +109,14 @@ void CheckSolve(const Problem& problem, double tolerance, std::mt19937& random)
     const Eigen::VectorXd wanted = Eigen::VectorXd::NullaryExpr(
       gram.Size(), [&random](Eigen::Index) { return Random(random, -1.0, 1.0); });
     const Eigen::VectorXd b = collocation.transpose() * (collocation * wanted);
-    std::vector<double> solution;
-    gram.Solve(ToStd(b), 1e-7, 300, solution, {});
-    const Eigen::Map<const Eigen::VectorXd> x(solution.data(), gram.Size());
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(gram.Size());
+    for (int pass = 0; pass < 2; ++pass)
+    {
+      std::vector<double> solution;
+      const Eigen::VectorXd residual = b - collocation.transpose() * (collocation * x);
+      gram.Solve(ToStd(residual), 1e-7, 300, solution, {});
+      x += Eigen::Map<const Eigen::VectorXd>(solution.data(), gram.Size());
+    }
     // A wrong or missing entry would leave its share of b.
     const Eigen::VectorXd scale =
       collocation.colwise().norm().transpose().cwiseMax(1e-300).cwiseInverse();
