@@ -332,13 +332,14 @@ void CooccurrenceSweep::NextLine(CooccurrenceSums* sums, double* maximalCorrelat
         continue;
       }
       moved = true;
-      for (Index column = before.End; column < columns.End; ++column)
-      {
-        Come(window, face(column));
-      }
+      // In this order no count is ever larger than a window's.
       for (Index column = before.Begin; column < columns.Begin; ++column)
       {
         Go(window, face(column));
+      }
+      for (Index column = before.End; column < columns.End; ++column)
+      {
+        Come(window, face(column));
       }
     }
     const Index at = x - begin;

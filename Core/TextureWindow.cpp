@@ -91,7 +91,8 @@ std::vector<double> TensorWeights(
   return weights;
 }
 
-void CheckOptions(const TextureOptions& options, std::size_t arrays)
+void CheckInput(
+  const std::uint8_t* levels, const Size3& size, const TextureOptions& options, std::size_t arrays)
 {
   if (options.GreyLevels < 1 || options.GreyLevels > MaximumGreyLevels)
   {
@@ -108,6 +109,14 @@ void CheckOptions(const TextureOptions& options, std::size_t arrays)
   if (arrays != TextureOutputNames(options).size())
   {
     throw std::invalid_argument("There must be one array for each name of the texture outputs.");
+  }
+  const std::uint8_t* end = levels + size[0] * size[1] * size[2];
+  const std::uint8_t* highest = std::max_element(levels, end);
+  if (highest != end && *highest >= options.GreyLevels)
+  {
+    throw std::invalid_argument("There is a voxel of level " + std::to_string(int(*highest)) +
+                                ", but only levels 0 to " + std::to_string(options.GreyLevels - 1) +
+                                " were announced.");
   }
 }
 
@@ -371,7 +380,7 @@ void ComputeTexture(const std::uint8_t* levels, const std::array<Index, 3>& size
   const std::array<Index, 3>& begin, const std::array<Index, 3>& end, const TextureOptions& options,
   const std::vector<Real*>& out, const Execution& execution)
 {
-  CheckOptions(options, out.size());
+  CheckInput(levels, size, options, out.size());
   const Texture texture(levels, size, options);
   const Tiling tiling(begin, end, texture.WithMaximalCorrelation ? SmallTileSize : TileSize);
   const Index count = tiling.Size();

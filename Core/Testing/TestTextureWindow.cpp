@@ -435,6 +435,10 @@ TEST(TextureWindow, RefusesOptionsOutOfRange)
   options.Radius = 2;
   options.GreyLevels = 257;
   EXPECT_THROW(Compute<float>(volume, options), std::invalid_argument);
+  options.GreyLevels = 16;
+  LevelVolume tooHigh = volume;
+  tooHigh.Levels[17] = 16;
+  EXPECT_THROW(Compute<float>(tooHigh, options), std::invalid_argument);
   std::vector<float*> tooFew;
   EXPECT_THROW(ComputeTexture(volume.Levels.data(), volume.Size, { 0, 0, 0 }, volume.Size,
                  TextureOptions(), tooFew),
