@@ -35,7 +35,7 @@ struct PlacementOptions
 {
   int GreyLevels = 16;
   int Reach = 2;           ///< how far, in voxels, an interface may move
-  double Smoothness = 0.2; ///< beta
+  double Smoothness = 0.3; ///< beta
   int Iterations = 24;
 };
 

@@ -21,6 +21,8 @@ using Size3 = std::array<Index, 3>;
 
 // Clusters are sought anew within the segments so far if so many sampled voxels are well inside.
 constexpr Index LEAST_SURE_SAMPLES = 200;
+// Differences of the criterion that say nothing.
+constexpr double AS_GOOD = 0.01;
 
 Index Volume(const Size3& size)
 {
@@ -252,24 +254,27 @@ private:
         SimplifiedSilhouette(points, result.Centres, part) } };
       return result;
     }
-    KMeansResult best;
-    double most = -1.0;
+    std::vector<KMeansResult> tried;
+    double most = 0.0;
     for (int k = 2; k <= MaximumAutomaticSegments; ++k)
     {
-      KMeansResult result = KMeans(points, k, {}, part);
-      if (result.Clusters < k && k > 2)
+      tried.push_back(KMeans(points, k, {}, part));
+      if (tried.back().Clusters < k && k > 2)
       {
-        break; // there are no more distinct points
+        tried.pop_back(); // there are no more distinct points
+        break;
       }
-      const double criterion = SimplifiedSilhouette(points, result.Centres, part);
-      this->Result.Criterion.push_back({ k, criterion });
-      if (criterion > most)
-      {
-        most = criterion;
-        best = std::move(result);
-      }
+      const double criterion = SimplifiedSilhouette(points, tried.back().Centres, part);
+      this->Result.Criterion.push_back({ tried.back().Clusters, criterion });
+      most = std::max(most, criterion);
     }
-    return best;
+    // The fewest of those that are as good as the best.
+    std::size_t chosen = 0;
+    while (this->Result.Criterion[chosen].second < most - AS_GOOD)
+    {
+      ++chosen;
+    }
+    return tried[chosen];
   }
 
   // Shells, interfaces and small components.
