@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSegmentBoundary.h"
+
+#include "BoundaryPolyData.h"
+#include "LabelledImage.h"
+#include "SMPExecution.h"
+#include "SegmentBoundary.h"
+
+#include "vtkDataObject.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <new>
+#include <stdexcept>
+#include <string>
+
+using namespace trivariate;
+
+vtkStandardNewMacro(vtkSegmentBoundary);
+vtkCxxSetObjectMacro(vtkSegmentBoundary, Controller, vtkMultiProcessController);
+
+//------------------------------------------------------------------------------
+vtkSegmentBoundary::vtkSegmentBoundary()
+{
+  this->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Segment");
+  this->SetInputArrayToProcess(
+    1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
+  this->SetController(vtkMultiProcessController::GetGlobalController());
+}
+
+vtkSegmentBoundary::~vtkSegmentBoundary()
+{
+  this->SetController(nullptr);
+}
+
+//------------------------------------------------------------------------------
+void vtkSegmentBoundary::AddSegment(int segment)
+{
+  this->Segments.push_back(segment);
+  this->Modified();
+}
+
+void vtkSegmentBoundary::ClearSegments()
+{
+  if (!this->Segments.empty())
+  {
+    this->Segments.clear();
+    this->Modified();
+  }
+}
+
+int vtkSegmentBoundary::GetSegment(int i) const
+{
+  return i >= 0 && i < this->GetNumberOfSegments() ? this->Segments[i] : -1;
+}
+
+//------------------------------------------------------------------------------
+int vtkSegmentBoundary::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+// Whether every process was asked for its share of one surface.
+bool vtkSegmentBoundary::IsGathering(vtkInformationVector* outputVector)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* info = outputVector->GetInformationObject(0);
+  return this->Controller && this->Controller->GetNumberOfProcesses() > 1 &&
+         info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) == this->Controller->GetNumberOfProcesses();
+}
+
+//------------------------------------------------------------------------------
+// The array of SetInputArrayToProcess(0, ...); an empty name, of a proxy without a choice, is the
+// default.
+vtkDataArray* vtkSegmentBoundary::LabelArray(vtkImageData* image)
+{
+  const char* name = this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME());
+  return name && !*name ? image->GetPointData()->GetArray("Segment")
+                        : this->GetInputArrayToProcess(0, image);
+}
+
+//------------------------------------------------------------------------------
+// The array of SetInputArrayToProcess(1, ...) or, where that are the labels, another one; null if
+// there is none or none is wanted.
+vtkDataArray* vtkSegmentBoundary::DensityArray(vtkImageData* image, vtkDataArray* labels)
+{
+  if (!this->UseDensity)
+  {
+    return nullptr;
+  }
+  vtkInformation* info = this->GetInputArrayInformation(1);
+  const char* name = info->Get(vtkDataObject::FIELD_NAME());
+  const bool byName = name && *name;
+  vtkDataArray* density =
+    name && !*name ? image->GetPointData()->GetScalars() : this->GetInputArrayToProcess(1, image);
+  if (byName && !density)
+  {
+    throw std::invalid_argument("The image has no point array \"" + std::string(name) +
+                                "\" for a density; choose another or switch UseDensity off.");
+  }
+  if (density && density != labels)
+  {
+    return density;
+  }
+  for (int i = 0; i < image->GetPointData()->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = image->GetPointData()->GetArray(i);
+    if (array && array != labels && array->GetNumberOfComponents() == 1)
+    {
+      return array;
+    }
+  }
+  return nullptr;
+}
+
+//------------------------------------------------------------------------------
+int vtkSegmentBoundary::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* inInfo = inputVector[0]->GetInformationObject(0);
+  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  if (!this->IsGathering(outputVector))
+  {
+    inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+    inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+    inInfo->Set(Pipeline::UPDATE_EXTENT(), inInfo->Get(Pipeline::WHOLE_EXTENT()), 6);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkSegmentBoundary::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkImageData* input = vtkImageData::GetData(inputVector[0]);
+  vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  const bool gathering = this->IsGathering(outputVector);
+  const int piece = outputVector->GetInformationObject(0)->Get(
+    vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
+  if (!gathering && piece > 0)
+  {
+    return 1; // the first piece is all
+  }
+  LabelledImage image;
+  std::string fault;
+  try
+  {
+    if (input->GetNumberOfPoints() > 0)
+    {
+      vtkDataArray* labels = this->LabelArray(input);
+      image = ReadLabels(input, labels, this->DensityArray(input, labels));
+    }
+  }
+  catch (const std::exception& error)
+  {
+    fault = error.what();
+  }
+  try
+  {
+    if (gathering)
+    {
+      const bool sound = GatherLabels(image, fault, this->Controller);
+      const int process = this->Controller->GetLocalProcessId();
+      if (sound && process > 0)
+      {
+        return 1;
+      }
+      if (sound)
+      {
+        vtkWarningMacro("Surfaces are made on one process: the pieces of "
+                        << this->Controller->GetNumberOfProcesses()
+                        << " processes were gathered to process 0.");
+      }
+      else if (fault.empty())
+      {
+        return 0; // another process tells
+      }
+    }
+    if (!fault.empty())
+    {
+      throw std::invalid_argument(fault);
+    }
+    if (image.Labels.empty())
+    {
+      throw std::invalid_argument("The image has no points.");
+    }
+    CheckLabels(image, this->Segments);
+
+    BoundaryOptions options;
+    options.SmoothingIterations = this->SmoothingIterations;
+    options.Density = image.Density.empty() ? nullptr : image.Density.data();
+    const SegmentBoundary boundary =
+      ComputeSegmentBoundary(image.View(), options, SMPExecution(this, 0.0, 0.95));
+    if (boundary.Intersections > 0)
+    {
+      vtkWarningMacro(
+        "The surface meets itself at " << boundary.Intersections << " pairs of triangles.");
+    }
+    BoundaryToPolyData(boundary, image, this->Segments, output);
+  }
+  catch (const Aborted&)
+  {
+    return 1; // the executive empties the output
+  }
+  catch (const std::bad_alloc&)
+  {
+    vtkErrorMacro("Out of memory; crop or coarsen the image.");
+    return 0;
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkSegmentBoundary::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Segments:";
+  for (int segment : this->Segments)
+  {
+    os << " " << segment;
+  }
+  os << "\n" << indent << "SmoothingIterations: " << this->SmoothingIterations << "\n";
+  os << indent << "UseDensity: " << this->UseDensity << "\n";
+  os << indent << "Controller: " << this->Controller << "\n";
+}
