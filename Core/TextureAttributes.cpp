@@ -24,7 +24,7 @@ struct CentralMoments
   {
     const double inverse = 1.0 / n;
     this->Mean = sums[0] * inverse;
-    const std::int64_t c = static_cast<std::int64_t>(this->Mean + 0.5);
+    const std::int64_t c = static_cast<std::int64_t>(2.0 * this->Mean + 1.0) / 2;
     const std::int64_t first = sums[0] - c * n;
     const std::int64_t second = sums[1] - c * (2 * sums[0] - c * n);
     const std::int64_t third = sums[2] - c * (3 * sums[1] - c * (3 * sums[0] - c * n));

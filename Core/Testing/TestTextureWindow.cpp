@@ -277,7 +277,7 @@ TEST(TextureWindow, IsPlainForTheMostLevels)
   TextureOptions options;
   options.GreyLevels = 256;
   options.Radius = 1;
-  ExpectPlainOutputs(RandomVolume({ 3, 2, 2 }, 256, 1), options);
+  ExpectPlainOutputs(RandomVolume({ 4, 2, 1 }, 256, 1), options);
 }
 
 // The largest windows: no count overflows.
