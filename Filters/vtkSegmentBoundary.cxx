@@ -30,8 +30,7 @@ vtkCxxSetObjectMacro(vtkSegmentBoundary, Controller, vtkMultiProcessController);
 vtkSegmentBoundary::vtkSegmentBoundary()
 {
   this->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Segment");
-  this->SetInputArrayToProcess(
-    1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
+  this->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Automatic");
   this->SetController(vtkMultiProcessController::GetGlobalController());
 }
 
@@ -89,31 +88,34 @@ vtkDataArray* vtkSegmentBoundary::LabelArray(vtkImageData* image)
 }
 
 //------------------------------------------------------------------------------
-// The array of SetInputArrayToProcess(1, ...) or, where that are the labels, another one; null if
-// there is none or none is wanted.
+// The array of SetInputArrayToProcess(1, ...), or the first one fit for it; null if there is none
+// or none is wanted.
 vtkDataArray* vtkSegmentBoundary::DensityArray(vtkImageData* image, vtkDataArray* labels)
 {
   if (!this->UseDensity)
   {
     return nullptr;
   }
-  vtkInformation* info = this->GetInputArrayInformation(1);
-  const char* name = info->Get(vtkDataObject::FIELD_NAME());
-  const bool byName = name && *name;
-  vtkDataArray* density =
-    name && !*name ? image->GetPointData()->GetScalars() : this->GetInputArrayToProcess(1, image);
-  if (byName && !density)
+  vtkPointData* data = image->GetPointData();
+  const char* name = this->GetInputArrayInformation(1)->Get(vtkDataObject::FIELD_NAME());
+  const std::string wanted = name ? name : "";
+  vtkDataArray* chosen = this->GetInputArrayToProcess(1, image);
+  if (chosen)
   {
-    throw std::invalid_argument("The image has no point array \"" + std::string(name) +
+    return chosen == labels ? nullptr : chosen;
+  }
+  if (!wanted.empty() && wanted != "Automatic")
+  {
+    throw std::invalid_argument("The image has no point array \"" + wanted +
                                 "\" for a density; choose another or switch UseDensity off.");
   }
-  if (density && density != labels)
+  if (data->GetScalars() && data->GetScalars() != labels)
   {
-    return density;
+    return data->GetScalars();
   }
-  for (int i = 0; i < image->GetPointData()->GetNumberOfArrays(); ++i)
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
-    vtkDataArray* array = image->GetPointData()->GetArray(i);
+    vtkDataArray* array = data->GetArray(i);
     if (array && array != labels && array->GetNumberOfComponents() == 1)
     {
       return array;

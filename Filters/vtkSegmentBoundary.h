@@ -22,9 +22,9 @@
  * @par Input
  * Port 0: a vtkImageData with two or more points along each axis. Its point array of labels, whole
  * numbers from 0, is chosen with SetInputArrayToProcess(0, ...), by default "Segment"; its density
- * with SetInputArrayToProcess(1, ...), by default the active scalars. If that is the array of
- * labels, the first other point array with one component is taken; if there is none, or UseDensity
- * is off, the labels alone count.
+ * with SetInputArrayToProcess(1, ...), by default "Automatic": the active scalars or, where these
+ * are the labels, the first other point array with one component. If there is none, or UseDensity is
+ * off, the labels alone count.
  *
  * @par Output
  * Port 0: vtkPolyData with triangles, points in double precision, and these arrays:
