@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// Borders cut into a mesh, straightened, and the patches between them.
+#ifndef trivariate_LayoutBuilder_h
+#define trivariate_LayoutBuilder_h
+
+#include "PathTracing.h"
+#include "SurfaceLayout.h"
+
+namespace trivariate
+{
+/// The number of a border in `Borders` is its mark in `Mesh`.
+class LayoutBuilder
+{
+public:
+  explicit LayoutBuilder(const SurfaceMesh& mesh)
+    : Mesh(mesh)
+  {
+  }
+
+  /// Replaces all borders by geodesics between the same corners within the union of the patches on
+  /// their two sides, in rounds.
+  void Straighten(const Execution& execution);
+
+  /// Fills the patches from both sides of all borders. Throws std::runtime_error naming a patch
+  /// where borders do not separate it from another.
+  SurfaceLayout Result() const;
+
+  LayoutMesh Mesh;
+  std::vector<Index> Corners; // points
+  std::vector<ChartLabel> PatchLabels;
+  std::vector<LayoutBorder> Borders; // all but their points, which marks in the mesh tell
+
+private:
+  std::vector<Index> PointsOf(Index border) const;
+  double StraightenBorder(Index border);
+};
+}
+
+#endif

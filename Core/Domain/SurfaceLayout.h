@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * A surface cut along geodesics between corners into patches, one for each face of a polycube.
+ */
+#ifndef trivariate_SurfaceLayout_h
+#define trivariate_SurfaceLayout_h
+
+#include "ChartRelabelling.h"
+#include "Polycube.h"
+
+#include <limits>
+
+namespace trivariate
+{
+struct LayoutBorder
+{
+  std::array<Index, 2> Corners; ///< where it begins and ends, counted in SurfaceLayout::Corners
+  std::array<Index, 2> Patches; ///< on its left and on its right, seen from outside
+  std::vector<Index> Points;    ///< the polyline, both corners included
+};
+
+struct SurfaceLayout
+{
+  std::vector<Eigen::Vector3d> Points; ///< those of the surface first, with their numbers
+  std::vector<Triangle> Triangles;     ///< anticlockwise seen from outside
+  std::vector<Index> Origins;          ///< of each triangle: the one of the surface it is part of
+  std::vector<Index> Patches;          ///< of each triangle
+  std::vector<ChartLabel> PatchLabels; ///< of each patch: 2 axis + side
+  std::vector<Index> Corners;          ///< points
+  std::vector<LayoutBorder> Borders;
+};
+
+/**
+ * From charts: labels of triangles, 2 axis + side. Each connected chart becomes a patch; corners
+ * are the points where three charts meet, in order of points. Each border is replaced by the
+ * geodesic between its corners within the union of its two charts, again while that still shortens
+ * the sum by more than 0.1 percent, at most three times.
+ *
+ * Throws std::invalid_argument, naming the chart or point, when labels do not make a layout of
+ * discs: a chart with a hole or without corners, four charts at a point, a chart that touches
+ * itself. Whether the charts are those of a polycube, CheckCharts says (LayoutCheck.h).
+ */
+SurfaceLayout LayoutFromCharts(
+  const SurfaceMesh& mesh, const std::vector<ChartLabel>& labels, const Execution& execution);
+
+/**
+ * From one place for each corner of a polycube, which is moved to the nearest point of the surface.
+ * Patches are the faces of the polycube, borders its edges, in its order.
+ *
+ * First a spanning tree of the edges is traced, shortest first, then the other edges, shortest
+ * first, each in its place in the cyclic order around its corners. On a surface without handles
+ * every edge finds its way, wherever the corners are, and every face is a disc. Then each border is
+ * straightened as for charts.
+ *
+ * Throws std::invalid_argument when there are more or fewer places than corners, one is farther
+ * than `farthest` from the surface, two fall on one point, the places are those of a mirrored
+ * polycube, or surface and polycube differ in their numbers of components or handles;
+ * std::runtime_error, naming the patch, where the borders around a handle do not bound discs.
+ */
+SurfaceLayout LayoutFromCorners(const SurfaceMesh& mesh, const Polycube& polycube,
+  const std::vector<Eigen::Vector3d>& corners, const Execution& execution,
+  double farthest = std::numeric_limits<double>::infinity());
+}
+
+#endif
