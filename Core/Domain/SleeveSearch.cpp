@@ -3,6 +3,7 @@
 #include "Unfolding.h"
 
 #include <queue>
+#include <unordered_map>
 
 namespace trivariate
 {
@@ -20,7 +21,6 @@ public:
     , To(to)
     , Target(mesh.Points[to.Point])
     , Goal(3 * mesh.NumberOfTriangles())
-    , Found(this->Goal + 1)
   {
   }
 
@@ -138,9 +138,9 @@ private:
   std::vector<Crossing> WayToGoal() const
   {
     std::vector<Crossing> way;
-    for (Crossing h = this->Goal; this->Found[h].Parent >= 0;)
+    for (Crossing h = this->Goal; this->Found.at(h).Parent >= 0;)
     {
-      const State& state = this->Found[h];
+      const State& state = this->Found.at(h);
       std::vector<Crossing> step(1, state.Parent);
       int turns = 0;
       while (state.Turns >> (turns + 1))
@@ -165,7 +165,8 @@ private:
   const PathEnd& To;
   const Eigen::Vector3d Target;
   const Crossing Goal;
-  std::vector<State> Found;
+  // Only what the search comes to: a path sees a small part of a large surface.
+  std::unordered_map<Crossing, State> Found;
   using Candidate = std::pair<double, Crossing>;
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<Candidate>> Waiting;
 };
