@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # ./reconstruct.sh [VOLUME] [--output DIR] [--array NAME] [--tolerance T] [--control-points N]
+#                  [--segments K]
 #
 # Turns a volume image into a T-spline and writes to DIR what came out of it: model.tspline,
 # resampled.vti, hexes.vtu, bezier.vtu, picture.png and report.json. The first call on Debian 12
@@ -12,6 +13,8 @@
 #   --tolerance T       stop when the RMS error is at most T percent of the array's range;
 #                       default is 0.1, or no limit when --control-points is given
 #   --control-points N  stop before there are more than N control points; default is 50000
+#   --segments K        also split the volume into K materials by texture and density (0: as many as
+#                       it seems to have), and write segments.vti and boundary.vtp
 set -euo pipefail
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 export BUILD_DIR=${BUILD_DIR:-$source_dir/build}
@@ -19,11 +22,11 @@ export BUILD_DIR=${BUILD_DIR:-$source_dir/build}
 usage() { sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "${BASH_SOURCE[0]}"; }
 fail() { echo "reconstruct: error: $*" >&2; exit 2; }
 
-volume="" output=output array="" tolerance="" control_points=""
+volume="" output=output array="" tolerance="" control_points="" segments=""
 while [ $# -gt 0 ]; do
   case $1 in
     -h | --help) usage; exit 0 ;;
-    --output | --array | --tolerance | --control-points)
+    --output | --array | --tolerance | --control-points | --segments)
       [ $# -ge 2 ] && [ -n "$2" ] || fail "$1 needs a value; see --help"
       name=${1#--}
       printf -v "${name//-/_}" %s "$2"
@@ -40,6 +43,8 @@ number='^([0-9]+([.][0-9]*)?|[.][0-9]+)([eE][-+]?[0-9]+)?$'
   fail "--tolerance is a percentage such as 0.5, not '$tolerance'"
 [ -z "$control_points" ] || { [[ $control_points =~ ^[0-9]{2,9}$ ]] && ((10#$control_points >= 64)); } ||
   fail "--control-points is a whole number from 64 to 999999999, not '$control_points'"
+[ -z "$segments" ] || { [[ $segments =~ ^[0-9]{1,2}$ ]] && ((10#$segments <= 64)); } ||
+  fail "--segments is a whole number from 0 to 64, not '$segments'"
 [ -z "$volume" ] || [ -f "$volume" ] || fail "there is no file '$volume'"
 [ -z "$volume" ] || [ -r "$volume" ] || fail "the file '$volume' cannot be read"
 mkdir -p -- "$output" 2>/dev/null || fail "the folder '$output' cannot be made"
@@ -49,4 +54,5 @@ mkdir -p -- "$output" 2>/dev/null || fail "the folder '$output' cannot be made"
 . "$BUILD_DIR/environment.sh"
 exec "$source_dir/Utilities/with-display.sh" pvbatch "$source_dir/Utilities/reconstruct.py" \
   ${volume:+--volume "$volume"} --output "$output" ${array:+--array "$array"} \
-  ${tolerance:+--tolerance "$tolerance"} ${control_points:+--control-points "$control_points"}
+  ${tolerance:+--tolerance "$tolerance"} ${control_points:+--control-points "$control_points"} \
+  ${segments:+--segments "$segments"}

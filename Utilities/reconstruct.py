@@ -129,6 +129,32 @@ def evaluate(path, model, output_type, **settings):
     return source
 
 
+def segment(path, source, name, count):
+    """Splits the volume into materials and saves their labels; 0 chooses their number."""
+    segmentation = simple.TextureSegmentation(Input=source, Scalars=["POINTS", name],
+                                              NumberOfSegments=count)
+    report_progress(segmentation)
+    segmentation.UpdatePipeline()
+    if output_of(segmentation).GetPointData().GetArray("Segment") is None:
+        fail("the segmentation failed, as told above")
+    save(path, segmentation, DataMode="Binary", CompressorType="ZLib")
+    return segmentation
+
+
+def count_segments(segmentation):
+    return 1 + int(output_of(segmentation).GetPointData().GetArray("Segment").GetRange()[1])
+
+
+def bound(path, segmentation):
+    """Saves the surfaces between the segments."""
+    boundary = simple.SegmentBoundary(Input=segmentation)
+    report_progress(boundary)
+    boundary.UpdatePipeline()
+    if output_of(boundary).GetNumberOfCells() == 0:
+        fail("there is no surface between segments")
+    save(path, boundary, DataMode="Binary", CompressorType="ZLib")
+
+
 def count_cells(model):
     mesh = simple.TSplineSource(Input=model, OutputType="T-Mesh")
     mesh.UpdatePipeline()
@@ -170,6 +196,7 @@ def main():
     parser.add_argument("--array")
     parser.add_argument("--tolerance", type=float)
     parser.add_argument("--control-points", type=int)
+    parser.add_argument("--segments", type=int)
     options = parser.parse_args()
     if options.tolerance is None:
         options.tolerance = 0.0 if options.control_points else 0.1
@@ -191,6 +218,9 @@ def main():
     resampled = step("resample", lambda: evaluate(path("resampled.vti"), model, "Image", Points=source))
     hexes = step("hexahedra", lambda: evaluate(path("hexes.vtu"), model, "Linear Hexahedra"))
     bezier = step("bezier", lambda: evaluate(path("bezier.vtu"), model, "Bezier Hexahedra"))
+    if options.segments is not None:
+        segments = step("segment", segment, path("segments.vti"), source, name, options.segments)
+        step("boundary", bound, path("boundary.vtp"), segments)
     step("picture", picture.save, path("picture.png"), source, resampled, model, name)
 
     rms, maximum = last_round(fit)
@@ -202,6 +232,7 @@ def main():
         "rms_density_percent": rms,
         "max_error": maximum,
         "round_trip_rms_density_percent": round_trip_error(image, output_of(resampled), name),
+        **({} if options.segments is None else {"segments": count_segments(segments)}),
         "seconds": step.seconds,
         "peak_memory_bytes": 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss,
         "model_bytes": os.path.getsize(path("model.tspline")),

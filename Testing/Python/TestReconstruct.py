@@ -11,14 +11,15 @@ import sys
 import numpy
 from vtkmodules.vtkCommonDataModel import VTK_BEZIER_HEXAHEDRON, VTK_HEXAHEDRON
 from vtkmodules.vtkIOImage import vtkPNGReader
-from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLUnstructuredGridReader
+from vtkmodules.vtkIOXML import (vtkXMLImageDataReader, vtkXMLPolyDataReader,
+                                 vtkXMLUnstructuredGridReader)
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from trivariate import vtkHydrogenOrbitalSource, vtkTSplineReader
 
 script = pathlib.Path(sys.argv[1]) / "reconstruct.sh"
 KEYS = ["voxels", "control_points", "tmesh_cells", "bezier_cells", "rms_density_percent",
-        "max_error", "round_trip_rms_density_percent", "seconds", "peak_memory_bytes",
+        "max_error", "round_trip_rms_density_percent", "segments", "seconds", "peak_memory_bytes",
         "model_bytes", "threads", "version"]
 
 
@@ -33,7 +34,7 @@ def read(reader, name):
 
 
 def test_results():
-    done = run("--output", "results", "--control-points", "1200")
+    done = run("--output", "results", "--control-points", "1200", "--segments", "2")
     assert done.returncode == 0, done.stdout + done.stderr
     assert "100 %" in done.stdout and "control points" in done.stdout, done.stdout
     with open("results/report.json", encoding="utf-8") as file:
@@ -67,6 +68,16 @@ def test_results():
     assert abs(rms - report["rms_density_percent"]) < 1e-6 * rms
     assert abs(numpy.abs(error).max() - report["max_error"]) < 1e-6
 
+    # The orbital is brighter inside its surface than outside.
+    assert report["segments"] == 2
+    segments = read(vtkXMLImageDataReader(), "segments.vti").GetPointData()
+    inside = vtk_to_numpy(segments.GetArray("Segment")) == 1
+    density = vtk_to_numpy(segments.GetArray("Density"))
+    assert density[inside].mean() > 2.0 * density[~inside].mean()
+    boundary = read(vtkXMLPolyDataReader(), "boundary.vtp")
+    assert boundary.GetNumberOfCells() > 1000
+    assert boundary.GetCellData().GetArray("BoundaryLabels").GetNumberOfComponents() == 2
+
     picture = vtk_to_numpy(read(vtkPNGReader(), "picture.png").GetPointData().GetScalars())
     assert len(picture) == 1600 * 800
     dark = (picture.reshape(800, 1600, -1)[:, :, :3].min(axis=2) < 240)
@@ -81,6 +92,7 @@ def test_faults():
             ("needs a value", "--array"),
             ("--tolerance is a percentage", "--tolerance", "small"),
             ("--control-points is a whole number", "--control-points", "63"),
+            ("--segments is a whole number", "--segments", "65"),
             ("one volume at a time", "a.vti", "b.vti"),
             ("there is no file", "absent.vti"),
             ("cannot be made", "--output", "file/below"),
