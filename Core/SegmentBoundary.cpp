@@ -18,8 +18,10 @@ using Eigen::Vector3d;
 
 // Triangles closer than this are taken apart; rounding to single precision does not close the gap.
 constexpr double Clearance = 1e-3;
+// Worse triangles are mended, if that can be done: an angle of less than five degrees or so.
+constexpr double LeastQuality = 0.045;
 
-// Squared mean ratio of a triangle, up to a constant: area over the sum of squared edges.
+// Mean ratio of a triangle, up to a constant: twice its area over the sum of squared edges.
 double Quality(const Vector3d& a, const Vector3d& b, const Vector3d& c)
 {
   const double edges = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
@@ -60,10 +62,13 @@ void Triangulate(const BoundaryNet& net, const Points& points, SegmentBoundary& 
   }
 }
 
-// Halves the way of the vertices of intersecting triangles from their anchors until no triangles
-// intersect; after six times a vertex is at its anchor, and there the net does not meet itself.
+// Halves the way of the vertices of intersecting triangles, and of slivers, from their anchors
+// until there are none; after six times a vertex is at its anchor, and there the net does not meet
+// itself.
 void PullApart(const Points& anchors, SegmentBoundary& result, const Execution& execution)
 {
+  const auto at = [&result](Index v)
+  { return Eigen::Map<const Vector3d>(result.Points[v].data()); };
   std::vector<char> suspect(result.Triangles.size(), 1);
   std::vector<std::uint8_t> halvings(anchors.size(), 0);
   std::vector<char> moved;
@@ -73,20 +78,32 @@ void PullApart(const Points& anchors, SegmentBoundary& result, const Execution& 
     const auto pairs = FindIntersections(result.Points, result.Triangles, suspect, Clearance,
       execution.Part(1.0 - 1.0 / (round + 1), 1.0 - 1.0 / (round + 2)));
     result.Intersections = static_cast<Index>(pairs.size());
-    if (pairs.empty())
-    {
-      break;
-    }
     moved.assign(anchors.size(), 0);
+    const auto move = [&](Index triangle)
+    {
+      for (Index v : result.Triangles[triangle])
+      {
+        moved[v] = 1;
+      }
+    };
     for (const auto& [s, t] : pairs)
     {
-      for (Index triangle : { s, t })
+      move(s);
+      move(t);
+    }
+    for (std::size_t t = 0; t < suspect.size(); ++t)
+    {
+      const Triangle& v = result.Triangles[t];
+      const bool canMove =
+        std::any_of(v.begin(), v.end(), [&halvings](Index i) { return halvings[i] < 3; });
+      if (suspect[t] && canMove && Quality(at(v[0]), at(v[1]), at(v[2])) < LeastQuality)
       {
-        for (Index v : result.Triangles[triangle])
-        {
-          moved[v] = 1;
-        }
+        move(t);
       }
+    }
+    if (std::none_of(moved.begin(), moved.end(), [](char m) { return m; }))
+    {
+      break;
     }
     for (std::size_t v = 0; v < anchors.size(); ++v)
     {

@@ -78,13 +78,16 @@ bool vtkSegmentBoundary::IsGathering(vtkInformationVector* outputVector)
 }
 
 //------------------------------------------------------------------------------
-// The array of SetInputArrayToProcess(0, ...); an empty name, of a proxy without a choice, is the
-// default.
+// The array of SetInputArrayToProcess(0, ...); without a choice, of a proxy, the one called
+// Segment.
 vtkDataArray* vtkSegmentBoundary::LabelArray(vtkImageData* image)
 {
   const char* name = this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME());
-  return name && !*name ? image->GetPointData()->GetArray("Segment")
-                        : this->GetInputArrayToProcess(0, image);
+  const std::string wanted = name ? name : "";
+  vtkDataArray* chosen = this->GetInputArrayToProcess(0, image);
+  return !chosen && (wanted.empty() || wanted == "Automatic")
+           ? image->GetPointData()->GetArray("Segment")
+           : chosen;
 }
 
 //------------------------------------------------------------------------------

@@ -23,9 +23,8 @@ labels = Calculator(
     Input=image, ResultArrayName="Segment",
     Function="if(mag(coords) < 13.3, if(coordsX + 0.2 * coordsZ < 2.2, 1, 2),"
              " if(mag(coords) < 19.2 & coordsY > 0.5, 3, 0))")
-labels.UpdatePipeline()
 boundary = SegmentBoundary(Input=labels)
-assert list(boundary.Labels)[-1] == "Segment", boundary.Labels
+assert list(boundary.Labels)[-1] == list(boundary.Density)[-1] == "Automatic"
 assert list(boundary.Segments) == [] and boundary.UseDensity and boundary.SmoothingIterations == 60
 boundary.UseDensity = 0
 surface = servermanager.Fetch(boundary)
@@ -47,7 +46,8 @@ view = CreateRenderView(ViewSize=[400, 400], UseColorPaletteForBackground=0,
                         Background=[1, 1, 1], OrientationAxesVisibility=0)
 colors = {1: [0.85, 0.45, 0.35], 2: [0.35, 0.55, 0.85], 3: [0.75, 0.72, 0.60]}
 for segment, color in colors.items():
-    part = SegmentBoundary(Input=labels, Segments=[segment], UseDensity=0)
+    part = SegmentBoundary(Input=labels, Segments=[segment], UseDensity=0,
+                           Labels=["POINTS", "Segment"])
     shown = Show(part, view)
     shown.SetRepresentationType("Surface With Edges" if segment == 2 else "Surface")
     shown.EdgeColor = [0.1, 0.2, 0.4]
