@@ -15,7 +15,9 @@ constexpr int DIRECTIONS = 13;
 constexpr Index ENOUGH_VOXELS = 500;
 // A pair seen less often than expected counts as if it were expected and seen so often more.
 constexpr double PSEUDO_PAIRS = 10.0;
-constexpr double MOST_INFORMATION = 2.5; // of one pair, so that no single pair decides
+// Of one pair, so that no single pair decides; what is rare is less telling than what is frequent.
+constexpr double MOST_INFORMATION = 2.5;
+constexpr double MOST_CONTRADICTION = 0.4;
 // This share of a segment's voxels has a level near one that was seen, falling by e each 1/16 of
 // the range: an unseen level, for example a mixture's, belongs to the segment nearest to it.
 constexpr double STRAY_SHARE = 0.1;
@@ -182,7 +184,23 @@ Model MakeModel(const Counts& counts, int levels, int segments)
       const double information =
         std::log((static_cast<double>(pair[i]) + PSEUDO_PAIRS) / (expected + PSEUDO_PAIRS));
       model.Pair[t * table + i] =
-        static_cast<float>(std::clamp(information, -MOST_INFORMATION, MOST_INFORMATION));
+        static_cast<float>(std::clamp(information, -MOST_CONTRADICTION, MOST_INFORMATION));
+    }
+  }
+  // A neighbour of the same label never speaks against it: or else labels would alternate where
+  // rare pairs are many, as in the ramp from one density to another. So the least information of
+  // all segments counts nothing.
+  const Index tables = DIRECTIONS * table;
+  for (Index i = 0; i < tables; ++i)
+  {
+    float least = std::numeric_limits<float>::infinity();
+    for (int l = 0; l < segments; ++l)
+    {
+      least = std::min(least, model.Pair[l * tables + i]);
+    }
+    for (int l = 0; l < segments; ++l)
+    {
+      model.Pair[l * tables + i] -= least;
     }
   }
   return model;

@@ -17,7 +17,8 @@
  *
  * the mean field of a Markov random field: a neighbour gives evidence for a segment only as far as
  * it belongs to it, so that nothing is ever measured across an interface; beta makes interfaces
- * smooth. Voxels farther than `Reach` from an interface keep their labels.
+ * smooth. I is bounded, and the least of all segments' is subtracted from it. Voxels farther than
+ * `Reach` from an interface keep their labels.
  */
 #ifndef trivariate_InterfacePlacement_h
 #define trivariate_InterfacePlacement_h
@@ -35,7 +36,7 @@ struct PlacementOptions
 {
   int GreyLevels = 16;
   int Reach = 2;           ///< how far, in voxels, an interface may move
-  double Smoothness = 0.3; ///< beta
+  double Smoothness = 0.2; ///< beta
   int Iterations = 24;
 };
 
