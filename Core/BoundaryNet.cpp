@@ -385,7 +385,7 @@ private:
 BoundaryNet BuildBoundaryNet(const LabelVolume& labels, const Execution& execution)
 {
   const Index layers = labels.Size[2] + 1;
-  const Index block = 64; // layers between two looks at the abort button
+  const Index block = 16; // layers between two looks at the abort button
   std::vector<Index> first(layers + 1, 0);
   for (Index start = 0; start < layers; start += block)
   {

@@ -80,7 +80,7 @@ public:
     this->SortByLayers();
     const Index layers = static_cast<Index>(this->LayerBegin.size()) - 1;
     std::vector<std::vector<std::pair<Index, Index>>> found(std::max<Index>(layers, 0));
-    const Index block = 64;
+    const Index block = 16; // layers between two looks at the abort button
     for (Index start = 0; start < layers; start += block)
     {
       execution.Check(static_cast<double>(start) / layers);

@@ -296,7 +296,7 @@ TEST(BoundaryNet, IsTheVoxelFacesWhereNothingIsAmbiguous)
 
 TEST(BoundaryNet, DoesNotDependOnThreads)
 {
-  const SegmentVolume volume = RandomVolume({ 20, 10, 150 }, 4, 7);
+  const SegmentVolume volume = RandomVolume({ 20, 10, 50 }, 4, 7);
   const BoundaryNet one = BuildBoundaryNet(volume.View(), Execution());
   const BoundaryNet three = BuildBoundaryNet(volume.View(), ThreadedExecution(3));
   ASSERT_EQ(one.Faces.size(), three.Faces.size());

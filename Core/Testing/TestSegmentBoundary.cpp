@@ -342,7 +342,7 @@ TEST(SegmentBoundary, IgnoresADensityWithoutContrast)
 
 TEST(SegmentBoundary, DoesNotDependOnThreads)
 {
-  SegmentVolume volume = RandomVolume({ 30, 20, 90 }, 4, 7);
+  SegmentVolume volume = RandomVolume({ 16, 12, 40 }, 4, 7);
   volume.Density.assign(volume.Labels.begin(), volume.Labels.end());
   BoundaryOptions options;
   options.Density = volume.Density.data();
