@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CubeCharts.h"
 
+#include "ClosestRotation.h"
 #include "ConformalCylinder.h"
 #include "CylinderCharts.h"
-
-#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
@@ -20,15 +19,6 @@ namespace
 {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-// The rotation closest to a matrix.
-Matrix3d ClosestRotation(const Matrix3d& m)
-{
-  const Eigen::JacobiSVD<Matrix3d> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Matrix3d sign = Matrix3d::Identity();
-  sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() > 0.0 ? 1.0 : -1.0;
-  return svd.matrixU() * sign * svd.matrixV().transpose();
-}
 
 constexpr double TwoPi = 6.283185307179586;
 

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// The parameter domain of one segment: a polycube, and its faces laid out on the surface.
+#ifndef trivariate_SegmentDomain_h
+#define trivariate_SegmentDomain_h
+
+#include "CubeCharts.h"
+#include "SurfaceLayout.h"
+
+namespace trivariate
+{
+struct DomainOptions
+{
+  CubeChartOptions Charts;
+  /// How much alignment (see SegmentDomain) one more corner must bring. 0: as many cubes as align
+  /// best; 1: one cube wherever one will do.
+  double CornerCost = 0.01;
+  /// Domains with more cubes are not looked at.
+  Index MostCubes = 64;
+};
+
+struct SegmentDomain
+{
+  /// The surface cut along the borders of its patches. Patches, corners and borders are the faces,
+  /// corners and edges of `Cubes`, in its order.
+  SurfaceLayout Layout;
+  Polycube Cubes;
+  /// Where the lattice points of `Cubes` are: corners on the surface, then the inner points, each
+  /// in the middle of its neighbours.
+  std::vector<Eigen::Vector3d> Places;
+  /// Area-weighted mean of the cosine between normals and the directions of their patches' axes.
+  /// Directions are the same for the whole segment, or turn along a bent one.
+  double Alignment;
+};
+
+/**
+ * The domain with the largest alignment less the cost of its corners. CheckLayout finds nothing in
+ * it. Throws std::invalid_argument for a surface of several pieces, std::runtime_error with the
+ * reason where no domain can be laid out.
+ */
+SegmentDomain FindDomain(
+  const SurfaceMesh& mesh, const DomainOptions& options, const Execution& execution);
+
+/**
+ * The given polycube with its corners at (or near) the given places, see LayoutFromCorners for what
+ * is refused. The directions that Alignment refers to are the rotation that aligns best.
+ */
+SegmentDomain DomainFromCorners(const SurfaceMesh& mesh, const Polycube& polycube,
+  const std::vector<Eigen::Vector3d>& picked, const Execution& execution,
+  double farthest = std::numeric_limits<double>::infinity());
+}
+
+#endif
