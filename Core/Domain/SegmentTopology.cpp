@@ -295,17 +295,27 @@ TopologyChanges MakeSegmentWhole(std::vector<std::uint8_t>& mask, const std::arr
   {
     return changes;
   }
+  // Cavities that stay count as filled meanwhile: a way out of them would be no better.
+  std::vector<Index> hollow;
   for (const std::vector<Index>& part : Parts(field, field.Object, 0))
   {
     // The background around everything begins at the first voxel inside the rim.
     const Index outside = 1 + field.Step[1] + field.Step[2];
-    if (static_cast<Index>(part.size()) <= options.LargestCavity && part.front() != outside)
+    if (part.front() == outside)
+    {
+      continue;
+    }
+    if (static_cast<Index>(part.size()) <= options.LargestCavity)
     {
       changes.Cavities += static_cast<Index>(part.size());
-      for (const Index at : part)
-      {
-        field.Object[at] = 1;
-      }
+    }
+    else
+    {
+      hollow.insert(hollow.end(), part.begin(), part.end());
+    }
+    for (const Index at : part)
+    {
+      field.Object[at] = 1;
     }
   }
   for (Index largest = 4; Euler(field) != 1; largest *= 4)
@@ -318,6 +328,10 @@ TopologyChanges MakeSegmentWhole(std::vector<std::uint8_t>& mask, const std::arr
     {
       break;
     }
+  }
+  for (const Index at : hollow)
+  {
+    field.Object[at] = 0;
   }
   changes.EulerCharacteristic = Euler(field);
   field.Store(mask);

@@ -23,7 +23,7 @@ struct TopologyOptions
 {
   /// The largest sheet, in voxels, that is cut or closed. Larger handles stay.
   Index LargestSheet = 1000;
-  /// Cavities up to this many voxels are filled.
+  /// Cavities up to this many voxels are filled; larger ones stay closed off.
   Index LargestCavity = 1000;
 };
 
@@ -33,7 +33,7 @@ struct TopologyChanges
   Index Cavities = 0;                 ///< voxels of cavities, filled
   Index Cut = 0, CutVoxels = 0;       ///< sheets removed from the segment, and their voxels
   Index Closed = 0, ClosedVoxels = 0; ///< sheets added to the segment, and their voxels
-  /// 1 - handles + cavities as they are now: 1 for a ball.
+  /// 1 - handles + cavities as they are now: 1 for a ball, 2 for a shell.
   Index EulerCharacteristic = 0;
 };
 
