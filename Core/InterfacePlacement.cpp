@@ -13,8 +13,10 @@ namespace
 constexpr int DIRECTIONS = 13;
 // A segment is measured where it is certain, unless fewer voxels than this are.
 constexpr Index ENOUGH_VOXELS = 500;
-// A pair seen less often than expected counts as if it were expected and seen so often more.
+// Pairs count as if they were expected and seen so often more, and by this share of all pairs more:
+// a few stray voxels of another material look alike, which says nothing about the segment.
 constexpr double PSEUDO_PAIRS = 10.0;
+constexpr double PSEUDO_SHARE = 0.002;
 // Of one pair, so that no single pair decides; what is rare is less telling than what is frequent.
 constexpr double MOST_INFORMATION = 2.5;
 constexpr double MOST_CONTRADICTION = 0.4;
@@ -181,8 +183,9 @@ Model MakeModel(const Counts& counts, int levels, int segments)
     for (Index i = 0; i < table; ++i)
     {
       const double expected = total * own[i / levels] * own[i % levels];
+      const double pseudo = PSEUDO_PAIRS + PSEUDO_SHARE * total;
       const double information =
-        std::log((static_cast<double>(pair[i]) + PSEUDO_PAIRS) / (expected + PSEUDO_PAIRS));
+        std::log((static_cast<double>(pair[i]) + pseudo) / (expected + pseudo));
       model.Pair[t * table + i] =
         static_cast<float>(std::clamp(information, -MOST_CONTRADICTION, MOST_INFORMATION));
     }

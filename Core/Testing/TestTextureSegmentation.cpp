@@ -138,7 +138,7 @@ TEST(TextureSegmentation, TellsCheckeredFromLayered)
 TEST(TextureSegmentation, TellsNoiseByItsCorrelationLength)
 {
   const Phantom phantom =
-    MakePhantom(64, Ball, { { 0.0, "fine noise" }, { 0.0, "coarse noise" } }, 0.0, 3);
+    MakePhantom(72, Ball, { { 0.0, "fine noise" }, { 0.0, "coarse noise" } }, 0.0, 3);
   ExpectHidden(phantom, 2);
   const SegmentationResult result = Segment(phantom, Wanted(2, true));
   EXPECT_GE(AdjustedRandIndex(phantom.Truth, result.Labels), 0.95);
