@@ -3,6 +3,7 @@
 #include "TextureSegmentation.h"
 
 #include "InterfacePlacement.h"
+#include "PieceVolume.h"
 #include "SegmentAttributes.h"
 #include "SegmentShells.h"
 
@@ -17,93 +18,10 @@ namespace trivariate
 {
 namespace
 {
-using Size3 = std::array<Index, 3>;
-
 // Clusters are sought anew within the segments so far if so many sampled voxels are well inside.
 constexpr Index LEAST_SURE_SAMPLES = 200;
 // Differences of the criterion that say nothing.
 constexpr double AS_GOOD = 0.01;
-
-Index Volume(const Size3& size)
-{
-  return size[0] * size[1] * size[2];
-}
-
-Size3 OwnSize(const SegmentationPiece& piece)
-{
-  return { piece.End[0] - piece.Begin[0], piece.End[1] - piece.Begin[1],
-    piece.End[2] - piece.Begin[2] };
-}
-
-// Calls f(place among the own voxels, place in the piece, place in the volume) row by row.
-template <typename F>
-void ForOwnRows(const SegmentationPiece& piece, const F& f)
-{
-  const Size3 own = OwnSize(piece);
-  for (Index k = 0; k < own[2]; ++k)
-  {
-    for (Index j = 0; j < own[1]; ++j)
-    {
-      const Size3 p = { piece.Begin[0], piece.Begin[1] + j, piece.Begin[2] + k };
-      f(own[0] * (j + own[1] * k), p[0] + piece.Size[0] * (p[1] + piece.Size[1] * p[2]),
-        p[0] + piece.Low[0] +
-          piece.Whole[0] * (p[1] + piece.Low[1] + piece.Whole[1] * (p[2] + piece.Low[2])));
-    }
-  }
-}
-
-// The own voxels of a piece as a part of the volume, half open.
-struct Box
-{
-  Size3 Low, High;
-
-  bool Has(Index inVolume, const Size3& whole) const
-  {
-    const Size3 p = { inVolume % whole[0], inVolume / whole[0] % whole[1],
-      inVolume / (whole[0] * whole[1]) };
-    return p[0] >= this->Low[0] && p[0] < this->High[0] && p[1] >= this->Low[1] &&
-           p[1] < this->High[1] && p[2] >= this->Low[2] && p[2] < this->High[2];
-  }
-};
-
-Box OwnBox(const SegmentationPiece& piece)
-{
-  Box box;
-  for (int a = 0; a < 3; ++a)
-  {
-    box.Low[a] = piece.Low[a] + piece.Begin[a];
-    box.High[a] = piece.Low[a] + piece.End[a];
-  }
-  return box;
-}
-
-//------------------------------------------------------------------------------
-// One byte a voxel of the whole volume, from what each process has of it.
-std::vector<std::uint8_t> GatherVolume(
-  const SegmentationPiece& piece, const std::vector<std::uint8_t>& mine, const GatherBytes& gather)
-{
-  const Size3 own = OwnSize(piece);
-  std::vector<std::uint8_t> message;
-  ForOwnRows(piece,
-    [&](Index place, Index, Index inVolume)
-    {
-      const Index head[2] = { inVolume, own[0] };
-      const std::size_t at = message.size();
-      message.resize(at + sizeof(head) + own[0]);
-      std::memcpy(&message[at], head, sizeof(head));
-      std::copy_n(&mine[place], own[0], &message[at + sizeof(head)]);
-    });
-  const std::vector<std::uint8_t> all = gather(message);
-  std::vector<std::uint8_t> volume(Volume(piece.Whole), 0);
-  for (std::size_t at = 0; at < all.size();)
-  {
-    Index head[2];
-    std::memcpy(head, &all[at], sizeof(head));
-    std::copy_n(&all[at + sizeof(head)], head[1], &volume[head[0]]);
-    at += sizeof(head) + head[1];
-  }
-  return volume;
-}
 
 //------------------------------------------------------------------------------
 // The sample's rows before smoothing as the feature space wants them; of the sure voxels only, if
@@ -401,7 +319,8 @@ private:
     }
     const double width = static_cast<double>(range.High) - range.Low;
     const double unit = width > 0.0 ? 0x1p30 / width : 0.0;
-    const std::vector<Box> boxes = this->GatherAll(std::vector<Box>{ OwnBox(this->Piece) });
+    const std::vector<PieceBox> boxes =
+      this->GatherAll(std::vector<PieceBox>{ OwnBox(this->Piece) });
     std::vector<std::int64_t> sums(256, 0);
     ForOwnRows(this->Piece,
       [&](Index, Index inPiece, Index inVolume)
@@ -410,7 +329,7 @@ private:
         {
           // A voxel of several pieces counts in the first of them.
           const bool counted = std::any_of(boxes.begin(), boxes.begin() + this->Piece.Process,
-            [&](const Box& box) { return box.Has(inVolume + i, this->Piece.Whole); });
+            [&](const PieceBox& box) { return box.Has(inVolume + i, this->Piece.Whole); });
           if (!counted)
           {
             sums[this->Labels[inVolume + i]] += std::llround(
