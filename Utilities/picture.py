@@ -73,3 +73,60 @@ def save(path, image, reconstruction, model, name):
     for i, view in enumerate(views):
         simple.AssignViewToLayout(view, layout, i)
     simple.SaveScreenshot(path, layout, ImageResolution=[1600, 800])
+
+
+SEGMENT_COLORS = [[0.88, 0.90, 0.93], [0.80, 0.55, 0.35], [0.95, 0.85, 0.55], [0.35, 0.55, 0.75],
+                  [0.45, 0.70, 0.45], [0.70, 0.40, 0.60], [0.55, 0.55, 0.55], [0.85, 0.35, 0.35]]
+
+
+def middle_slice(image, axis):
+    """The cells of the middle slice, each with the value at most of its points."""
+    extent = list(image.GetDataInformation().GetExtent())
+    middle = (extent[2 * axis] + extent[2 * axis + 1]) // 2
+    extent[2 * axis] = extent[2 * axis + 1] = middle
+    return simple.PointDatatoCellData(Input=simple.ExtractSubset(Input=image, VOI=extent),
+                                      CategoricalData=1)
+
+
+def save_segments(path, segmentation, boundary, name):
+    """Density and segments on the middle slice, and the segments' surfaces cut open there."""
+    bounds = segmentation.GetDataInformation().GetBounds()
+    centre = [0.5 * (bounds[2 * a] + bounds[2 * a + 1]) for a in range(3)]
+    count = 1 + int(segmentation.PointData["Segment"].GetRange()[1])
+    views = [view_of(name), view_of(f"{count} segments"), view_of("their surfaces, cut open")]
+    steps = [x for i in range(count) for edge in (i - 0.5, i + 0.499)
+             for x in [edge, *SEGMENT_COLORS[i % len(SEGMENT_COLORS)]]]
+    across = middle_slice(segmentation, 1)
+    for view, array in zip(views, (name, "Segment")):
+        shown = simple.Show(across, view)
+        shown.Ambient, shown.Diffuse = 1.0, 0.0
+        simple.ColorBy(shown, ("CELLS", array), separate=True)
+        lut = simple.GetColorTransferFunction(array, shown, separate=True)
+        if array == "Segment":
+            lut.RGBPoints = steps
+        else:
+            lut.ApplyPreset("Grayscale", True)
+        shown.SetScalarBarVisibility(view, False)
+        view.CameraParallelProjection = 1
+        view.CameraPosition = [centre[0], bounds[2] - 1.0, centre[2]]
+        view.CameraFocalPoint = centre
+        view.CameraViewUp = [0.0, 0.0, 1.0]
+        view.ResetCamera()
+    cut = simple.Clip(Input=boundary, ClipType="Plane", Invert=0)
+    cut.ClipType.Origin, cut.ClipType.Normal = centre, [0.0, 1.0, 0.0]
+    shown = simple.Show(cut, views[2])
+    simple.ColorBy(shown, ("CELLS", "BoundaryLabels"))
+    lut = simple.GetColorTransferFunction("BoundaryLabels")
+    lut.VectorMode, lut.VectorComponent = "Component", 0  # the inner side
+    lut.RGBPoints = steps
+    shown.SetScalarBarVisibility(views[2], False)
+    views[2].CameraPosition = [centre[0] - 1.2, centre[1] - 3.0, centre[2] + 1.0]
+    views[2].CameraFocalPoint = centre
+    views[2].CameraViewUp = [0.0, 0.0, 1.0]
+    views[2].ResetCamera()
+    layout = simple.CreateLayout()
+    layout.SplitHorizontal(0, 1.0 / 3.0)
+    layout.SplitHorizontal(2, 0.5)
+    for view, place in zip(views, (1, 5, 6)):
+        simple.AssignViewToLayout(view, layout, place)
+    simple.SaveScreenshot(path, layout, ImageResolution=[1500, 600])

@@ -153,6 +153,7 @@ def bound(path, segmentation):
     if output_of(boundary).GetNumberOfCells() == 0:
         fail("there is no surface between segments")
     save(path, boundary, DataMode="Binary", CompressorType="ZLib")
+    return boundary
 
 
 def count_cells(model):
@@ -220,7 +221,9 @@ def main():
     bezier = step("bezier", lambda: evaluate(path("bezier.vtu"), model, "Bezier Hexahedra"))
     if options.segments is not None:
         segments = step("segment", segment, path("segments.vti"), source, name, options.segments)
-        step("boundary", bound, path("boundary.vtp"), segments)
+        boundary = step("boundary", bound, path("boundary.vtp"), segments)
+        step("segments_picture", picture.save_segments, path("segments.png"), segments, boundary,
+             name)
     step("picture", picture.save, path("picture.png"), source, resampled, model, name)
 
     rms, maximum = last_round(fit)

@@ -78,6 +78,8 @@ def test_results():
     assert boundary.GetNumberOfCells() > 1000
     assert boundary.GetCellData().GetArray("BoundaryLabels").GetNumberOfComponents() == 2
 
+    assert read(vtkPNGReader(), "segments.png").GetDimensions() == (1500, 600, 1)
+
     picture = vtk_to_numpy(read(vtkPNGReader(), "picture.png").GetPointData().GetScalars())
     assert len(picture) == 1600 * 800
     dark = (picture.reshape(800, 1600, -1)[:, :, :3].min(axis=2) < 240)
