@@ -187,8 +187,8 @@ void FindBorders(const SurfaceMesh& mesh, const std::vector<Index>& charts, Layo
 }
 
 //------------------------------------------------------------------------------
-SurfaceLayout LayoutFromCharts(
-  const SurfaceMesh& mesh, const std::vector<ChartLabel>& labels, const Execution& execution)
+SurfaceLayout LayoutFromCharts(const SurfaceMesh& mesh, const std::vector<ChartLabel>& labels,
+  const Execution& execution, double stretch)
 {
   if (labels.size() != mesh.Triangles.size())
   {
@@ -200,7 +200,7 @@ SurfaceLayout LayoutFromCharts(
   CheckDiscs(mesh, charts, builder.PatchLabels.size());
   FindCorners(mesh, charts, builder);
   FindBorders(mesh, charts, builder);
-  builder.Straighten(execution);
+  builder.Straighten(stretch, execution);
   return builder.Result();
 }
 }

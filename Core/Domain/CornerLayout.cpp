@@ -293,7 +293,7 @@ SurfaceLayout LayoutFromCorners(const SurfaceMesh& mesh, const Polycube& polycub
       SectorFor(builder, polycube, edge.To, e, traced), e);
     traced[e] = 1;
   }
-  builder.Straighten(execution.Part(0.5, 1.0));
+  builder.Straighten(std::numeric_limits<double>::infinity(), execution.Part(0.5, 1.0));
   return builder.Result();
 }
 }

@@ -5,6 +5,7 @@
 #include "ClosestRotation.h"
 #include "ConformalCylinder.h"
 #include "CylinderCharts.h"
+#include "NormalAxes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -109,15 +110,7 @@ private:
   // the same turned about the diagonal. Where the normals have no say, the starts themselves count.
   std::vector<Vector3d> Axes() const
   {
-    Matrix3d moment = Matrix3d::Zero();
-    for (std::size_t t = 0; t < this->Areas.size(); ++t)
-    {
-      const Vector3d d = this->Centres[t] - this->Centre;
-      moment += this->Areas[t] * d * d.transpose();
-    }
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(moment);
-    Matrix3d frame = principal.eigenvectors().transpose();
-    frame.row(2) = frame.row(0).cross(frame.row(1));
+    const Matrix3d frame = PrincipalFrame(this->Areas, this->Centres);
     std::vector<Vector3d> axes;
     const auto add = [&axes](const Matrix3d& f)
     {
@@ -127,27 +120,10 @@ private:
       }
     };
     add(frame);
-    add(this->ClingToNormals(frame));
+    add(ClingToNormals(this->Areas, this->Normals, frame));
     const Eigen::AngleAxisd turn(0.6, Vector3d(1.0, 1.0, 1.0).normalized());
-    add(this->ClingToNormals(turn.toRotationMatrix() * frame));
+    add(ClingToNormals(this->Areas, this->Normals, turn.toRotationMatrix() * frame));
     return axes;
-  }
-
-  // Raises the area-weighted sum of the fourth powers of the normals' components.
-  Matrix3d ClingToNormals(Matrix3d frame) const
-  {
-    for (int round = 0; round < 30; ++round)
-    {
-      Matrix3d correlation = Matrix3d::Zero();
-      for (std::size_t t = 0; t < this->Areas.size(); ++t)
-      {
-        const Vector3d n = frame * this->Normals[t];
-        const Vector3d cube = n.array().cube();
-        correlation += this->Areas[t] * cube * this->Normals[t].transpose();
-      }
-      frame = ClosestRotation(correlation);
-    }
-    return frame;
   }
 
   // Far along the axis, but near it.

@@ -59,10 +59,35 @@ std::vector<Index> LayoutBuilder::PointsOf(Index border) const
 }
 
 //------------------------------------------------------------------------------
-// Returns the border's length.
-double LayoutBuilder::StraightenBorder(Index border)
+// Returns the border's length. Its first stretch may be of another length than the others.
+double LayoutBuilder::StraightenBorder(Index border, double first, double stretch)
 {
   const std::vector<Index> points = this->PointsOf(border);
+  double length = 0.0;
+  for (std::size_t begin = 0; begin + 1 < points.size();)
+  {
+    const double longest = begin == 0 ? first : stretch;
+    std::vector<Index> part(points.begin() + begin, points.begin() + begin + 2);
+    double run = PolylineLength(this->Mesh, part);
+    for (std::size_t next = begin + 2; next < points.size(); ++next)
+    {
+      run += PolylineLength(this->Mesh, { points[next - 1], points[next] });
+      if (run > longest)
+      {
+        break;
+      }
+      part.push_back(points[next]);
+    }
+    begin += part.size() - 1;
+    length += this->StraightenStretch(border, part);
+  }
+  return length;
+}
+
+//------------------------------------------------------------------------------
+// Returns the length of what runs between the same ends now.
+double LayoutBuilder::StraightenStretch(Index border, const std::vector<Index>& points)
+{
   const double length = PolylineLength(this->Mesh, points);
   const Index from = points.front(), to = points.back();
   MarkAll(this->Mesh, points, -1);
@@ -79,16 +104,18 @@ double LayoutBuilder::StraightenBorder(Index border)
 }
 
 //------------------------------------------------------------------------------
-void LayoutBuilder::Straighten(const Execution& execution)
+void LayoutBuilder::Straighten(double stretch, const Execution& execution)
 {
   double before = std::numeric_limits<double>::infinity();
   for (int round = 0; round < Rounds; ++round)
   {
+    // Each second round straightens across the ends of the stretches of the round before.
+    const double first = round % 2 ? 0.5 * stretch : stretch;
     double length = 0.0;
     for (std::size_t border = 0; border < this->Borders.size(); ++border)
     {
       execution.Check((round + double(border) / double(this->Borders.size())) / Rounds);
-      length += this->StraightenBorder(static_cast<Index>(border));
+      length += this->StraightenBorder(static_cast<Index>(border), first, stretch);
     }
     if (length >= Worthwhile * before)
     {

@@ -18,9 +18,9 @@ public:
   {
   }
 
-  /// Replaces all borders by geodesics between the same corners within the union of the patches on
-  /// their two sides, in rounds.
-  void Straighten(const Execution& execution);
+  /// Replaces stretches of all borders, at most so long, by geodesics between the same points
+  /// within the union of the patches on their two sides, in rounds.
+  void Straighten(double stretch, const Execution& execution);
 
   /// Fills the patches from both sides of all borders. Throws std::runtime_error naming a patch
   /// where borders do not separate it from another.
@@ -33,7 +33,8 @@ public:
 
 private:
   std::vector<Index> PointsOf(Index border) const;
-  double StraightenBorder(Index border);
+  double StraightenBorder(Index border, double first, double stretch);
+  double StraightenStretch(Index border, const std::vector<Index>& points);
 };
 }
 

@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SegmentDomain.h"
 
+#include "ChainLayout.h"
 #include "ClosestRotation.h"
+#include "FlatPolycube.h"
 #include "LayoutCheck.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <memory>
 #include <stdexcept>
 
 namespace trivariate
@@ -15,6 +19,21 @@ namespace
 {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+
+constexpr double StretchInEdges = 3.0; // so far chart borders are straightened
+
+double MeanEdgeLength(const SurfaceMesh& mesh)
+{
+  double sum = 0.0;
+  for (const Triangle& c : mesh.Triangles)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      sum += (mesh.Points[c[(k + 1) % 3]] - mesh.Points[c[k]]).norm();
+    }
+  }
+  return sum / (3.0 * double(mesh.Triangles.size()));
+}
 
 double SignOf(ChartLabel label)
 {
@@ -147,29 +166,159 @@ void RefuseInvalid(const std::vector<std::string>& messages)
   }
 }
 
-SegmentDomain OneCube(
-  const SurfaceMesh& mesh, const CubeChartOptions& options, const Execution& execution)
+// Candidates, and the best of them.
+class Search
 {
-  const CubeCharts charts = FindCubeCharts(mesh, options, execution.Part(0.0, 0.8));
-  const SurfaceLayout layout = LayoutFromCharts(mesh, charts.Labels, execution.Part(0.8, 1.0));
-  std::vector<LatticePoint> corners;
-  RefuseInvalid(CheckCharts(layout, &corners));
-  SegmentDomain domain{ {}, Polycube::FromGrid({ 1, 1, 1 }), {}, 0.0 };
-  domain.Layout = InOrderOf(domain.Cubes, layout, corners);
-  domain.Places = PlacesOf(domain.Layout, domain.Cubes);
-  domain.Alignment = AlignmentOf(domain.Layout,
-    [&](std::size_t t) -> const Matrix3d&
-    { return charts.Frames[charts.FrameOfTriangle[domain.Layout.Origins[t]]]; });
-  RefuseInvalid(CheckLayout(domain.Layout, domain.Cubes));
-  return domain;
-}
+public:
+  Search(const SurfaceMesh& mesh, const DomainOptions& options, const Execution& execution)
+    : Mesh(mesh)
+    , Options(options)
+    , Run(execution)
+  {
+  }
+
+  SegmentDomain Best()
+  {
+    std::string reasons;
+    const auto attempt = [&reasons](const auto& candidate)
+    {
+      try
+      {
+        candidate();
+      }
+      catch (const std::invalid_argument& error)
+      {
+        reasons += std::string(" ") + error.what();
+      }
+      catch (const std::runtime_error& error)
+      {
+        reasons += std::string(" ") + error.what();
+      }
+    };
+    attempt([this]() { this->TryCubeAndChain(); });
+    attempt([this]() { this->TryFlatPolycube(); });
+    if (!this->Found)
+    {
+      throw std::runtime_error("No domain was found for the surface." + reasons);
+    }
+    return std::move(*this->Found);
+  }
+
+private:
+  double Value(const SegmentDomain& domain) const
+  {
+    return domain.Alignment - this->Options.CornerCost * double(domain.Cubes.NumberOfCorners);
+  }
+
+  // Whether a domain with this many corners can be the best at all.
+  bool IsWorthwhile(Index corners) const
+  {
+    return !this->Found ||
+           1.0 - this->Options.CornerCost * double(corners) > this->Value(*this->Found);
+  }
+
+  void Offer(SegmentDomain domain)
+  {
+    RefuseInvalid(CheckLayout(domain.Layout, domain.Cubes));
+    if (!this->Found || this->Value(domain) > this->Value(*this->Found))
+    {
+      this->Found = std::make_unique<SegmentDomain>(std::move(domain));
+    }
+  }
+
+  void TryCubeAndChain()
+  {
+    const CubeCharts charts =
+      FindCubeCharts(this->Mesh, this->Options.Charts, this->Run.Part(0.0, 0.6));
+    const SurfaceLayout layout = LayoutFromCharts(this->Mesh, charts.Labels,
+      this->Run.Part(0.6, 0.7), StretchInEdges * MeanEdgeLength(this->Mesh));
+    std::vector<LatticePoint> corners;
+    RefuseInvalid(CheckCharts(layout, &corners));
+    SegmentDomain cube{ {}, Chain(0, 1), {}, 0.0 };
+    cube.Layout = InOrderOf(cube.Cubes, layout, corners);
+    this->Finish(cube, charts);
+    this->Offer(cube);
+
+    const auto [axis, length] = Longest(cube.Layout);
+    const Index cubes = std::min<Index>(std::lround(length), this->Options.MostCubes);
+    if (cubes > 1 && this->IsWorthwhile(4 * (cubes + 1)))
+    {
+      SegmentDomain chain{ CutIntoChain(
+                             cube.Layout, axis, static_cast<int>(cubes), this->Run.Part(0.7, 0.75)),
+        Chain(axis, static_cast<int>(cubes)), {}, 0.0 };
+      this->Finish(chain, charts);
+      this->Offer(std::move(chain));
+    }
+  }
+
+  void TryFlatPolycube()
+  {
+    const FlatPolycube flat = FindFlatPolycube(this->Mesh, this->Options.MostCubes);
+    if (this->IsWorthwhile(flat.Cubes.NumberOfCorners))
+    {
+      this->Offer(
+        DomainFromCorners(this->Mesh, flat.Cubes, flat.Corners, this->Run.Part(0.75, 1.0)));
+    }
+  }
+
+  // Places and alignment, by the charts' directions, each cube's turned as a whole toward its own
+  // normals.
+  static void Finish(SegmentDomain& domain, const CubeCharts& charts)
+  {
+    domain.Places = PlacesOf(domain.Layout, domain.Cubes);
+    const auto charted = [&](std::size_t t) -> const Matrix3d&
+    { return charts.Frames[charts.FrameOfTriangle[domain.Layout.Origins[t]]]; };
+    const auto cubeOf = [&domain](std::size_t t)
+    { return domain.Cubes.Faces[domain.Layout.Patches[t]].Cube; };
+    std::vector<Matrix3d> turns(domain.Cubes.Cubes.size(), Matrix3d::Zero());
+    for (std::size_t t = 0; t < domain.Layout.Triangles.size(); ++t)
+    {
+      const ChartLabel label = domain.Layout.PatchLabels[domain.Layout.Patches[t]];
+      turns[cubeOf(t)].row(label / 2) +=
+        SignOf(label) * (charted(t) * AreaVector(domain.Layout, t)).transpose();
+    }
+    std::transform(turns.begin(), turns.end(), turns.begin(), ClosestRotation);
+    domain.Alignment = AlignmentOf(
+      domain.Layout, [&](std::size_t t) -> Matrix3d { return turns[cubeOf(t)] * charted(t); });
+  }
+
+  // The axis along which a cube's borders are longest, and how long against the others.
+  static std::pair<int, double> Longest(const SurfaceLayout& cube)
+  {
+    Vector3d lengths = Vector3d::Zero();
+    for (const LayoutBorder& border : cube.Borders)
+    {
+      const int axis =
+        3 - cube.PatchLabels[border.Patches[0]] / 2 - cube.PatchLabels[border.Patches[1]] / 2;
+      for (std::size_t i = 0; i + 1 < border.Points.size(); ++i)
+      {
+        lengths[axis] += (cube.Points[border.Points[i + 1]] - cube.Points[border.Points[i]]).norm();
+      }
+    }
+    int axis = 0;
+    const double length = lengths.maxCoeff(&axis);
+    return { axis, 2.0 * length / (lengths.sum() - length) };
+  }
+
+  const SurfaceMesh& Mesh;
+  const DomainOptions& Options;
+  const Execution& Run;
+  std::unique_ptr<SegmentDomain> Found;
+};
 }
 
 //------------------------------------------------------------------------------
 SegmentDomain FindDomain(
   const SurfaceMesh& mesh, const DomainOptions& options, const Execution& execution)
 {
-  return OneCube(mesh, options.Charts, execution);
+  Index pieces = 0;
+  mesh.Components(pieces);
+  if (pieces != 1)
+  {
+    throw std::invalid_argument(
+      "The surface has " + std::to_string(pieces) + " pieces; a domain is for one.");
+  }
+  return Search(mesh, options, execution).Best();
 }
 
 //------------------------------------------------------------------------------

@@ -35,14 +35,16 @@ struct SurfaceLayout
  * From charts: labels of triangles, 2 axis + side. Each connected chart becomes a patch; corners
  * are the points where three charts meet, in order of points. Each border is replaced by the
  * geodesic between its corners within the union of its two charts, again while that still shortens
- * the sum by more than 0.1 percent, at most three times.
+ * the sum by more than 0.1 percent, at most three times. With a finite `stretch` geodesics replace
+ * no more than so long a part of a border at once: steps are smoothed, but borders stay where they
+ * are.
  *
  * Throws std::invalid_argument, naming the chart or point, when labels do not make a layout of
  * discs: a chart with a hole or without corners, four charts at a point, a chart that touches
  * itself. Whether the charts are those of a polycube, CheckCharts says (LayoutCheck.h).
  */
-SurfaceLayout LayoutFromCharts(
-  const SurfaceMesh& mesh, const std::vector<ChartLabel>& labels, const Execution& execution);
+SurfaceLayout LayoutFromCharts(const SurfaceMesh& mesh, const std::vector<ChartLabel>& labels,
+  const Execution& execution, double stretch = std::numeric_limits<double>::infinity());
 
 /**
  * From one place for each corner of a polycube, which is moved to the nearest point of the surface.
