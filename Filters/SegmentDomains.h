@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// The domains of several segments, and which surfaces they share.
+#ifndef SegmentDomains_h
+#define SegmentDomains_h
+
+#include "Domain/DomainShell.h"
+#include "SegmentSurface.h"
+
+#include <string>
+#include <vector>
+
+namespace trivariate
+{
+/// A piece of surface with the polycube inside of it.
+struct DomainSurface
+{
+  SegmentDomain Domain;
+  std::vector<Index> Origins; ///< of each triangle of the piece: which one of the labelled surface
+};
+
+struct BlocksOfSegment
+{
+  int Segment;
+  Index Outer;      ///< of DomainSet::Surfaces
+  Index Inner = -1; ///< of a shell: the surface of what is inside of it, turned away from it
+  DomainBlocks Blocks;
+};
+
+struct DomainSet
+{
+  std::vector<DomainSurface> Surfaces;
+  std::vector<BlocksOfSegment> Segments; ///< in order of the labels
+  std::vector<std::string> Failures;     ///< one sentence for each segment without a domain
+  std::vector<std::string> Remarks;      ///< about domains that are not what could be wished for
+};
+
+struct DomainSettings
+{
+  DomainOptions Options;
+  bool Layered = true;
+  double LayerDepth = 0.0; ///< in mean edges of the surface; 0: automatic
+};
+
+/// The domain's blocks as the settings want them.
+DomainBlocks BlocksOf(
+  const SegmentDomain& domain, const DomainSettings& settings, const Execution& execution);
+
+/**
+ * Domains found automatically. A segment with a cavity becomes a shell; where what is in the cavity
+ * is one of the segments with a domain of one cube, both share that surface with its corners and
+ * patches.
+ */
+DomainSet FindDomains(const LabelledSurface& surface, const std::vector<int>& segments,
+  const DomainSettings& settings, const Execution& execution);
+
+/// The only piece of a segment's surface. Throws std::invalid_argument where there are more, or
+/// none.
+SurfacePiece OnlyPieceOf(const LabelledSurface& surface, int segment);
+
+/// FindDomain, with a hint for the user where the surface has handles.
+SegmentDomain DomainOf(
+  const SurfaceMesh& mesh, const DomainOptions& options, const Execution& execution);
+}
+
+#endif

@@ -1,0 +1,425 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkPolycubeDomain.h"
+
+#include "CornerGuess.h"
+#include "DomainOutput.h"
+#include "SMPExecution.h"
+#include "SegmentDomains.h"
+#include "SegmentSurface.h"
+
+#include "vtkDemandDrivenPipeline.h"
+#include "vtkDoubleArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+using namespace trivariate;
+
+vtkStandardNewMacro(vtkPolycubeDomain);
+vtkCxxSetObjectMacro(vtkPolycubeDomain, Controller, vtkMultiProcessController);
+
+namespace
+{
+std::vector<Eigen::Vector3d> PointsOf(const std::vector<double>& coordinates)
+{
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3)
+  {
+    points.emplace_back(coordinates[i], coordinates[i + 1], coordinates[i + 2]);
+  }
+  return points;
+}
+}
+
+// What is kept from one update to the next: the surface of the only segment and its corners.
+struct vtkPolycubeDomain::Internals
+{
+  // Keeps the guess as long as surface, segment and options are the same.
+  void GuessFor(
+    const LabelledSurface& surface, const std::vector<int>& chosen, const DomainOptions& options)
+  {
+    std::vector<SurfacePiece> pieces;
+    try
+    {
+      if (chosen.size() == 1)
+      {
+        pieces = PiecesOf(surface, chosen[0]);
+      }
+    }
+    catch (const std::invalid_argument&) // told where domains are made
+    {
+    }
+    if (pieces.size() != 1)
+    {
+      this->Guess.reset();
+      return;
+    }
+    SurfaceMesh& mesh = pieces[0].Mesh;
+    if (!this->Guess || !this->Guess->IsFor(mesh, options))
+    {
+      this->Guess = std::make_unique<CornerGuess>(std::move(mesh), options);
+    }
+  }
+
+  // A domain with picked corners; with those of the guess where there are none.
+  DomainSet ByHand(const LabelledSurface& surface, int segment, const DomainSettings& settings,
+    vtkPolycubeDomain* self, const std::vector<Eigen::Vector3d>& picked)
+  {
+    const SurfacePiece piece = OnlyPieceOf(surface, segment);
+    CornerGuess& guess = *this->Guess;
+    const Polycube shape =
+      guess.Shape(self->NumberOfCubes, self->SwitchedOffCubes, SMPExecution(self, 0.0, 0.5));
+    const std::vector<Eigen::Vector3d> corners =
+      picked.empty() ? guess.Corners(shape, SMPExecution(self, 0.5, 0.6)) : picked;
+    SegmentDomain domain = DomainFromCorners(
+      piece.Mesh, shape, corners, SMPExecution(self, 0.6, 0.9), self->SnapLimit * guess.Diagonal());
+    DomainBlocks blocks = BlocksOf(domain, settings, SMPExecution(self, 0.9, 1.0));
+    DomainSet set;
+    set.Surfaces.push_back({ std::move(domain), piece.Origins });
+    set.Segments.push_back({ segment, 0, -1, std::move(blocks) });
+    return set;
+  }
+
+  std::unique_ptr<CornerGuess> Guess;
+  vtkNew<vtkDoubleArray> StartCorners;
+};
+
+//------------------------------------------------------------------------------
+vtkPolycubeDomain::vtkPolycubeDomain()
+  : Internal(new Internals)
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(3);
+  this->SetController(vtkMultiProcessController::GetGlobalController());
+}
+
+vtkPolycubeDomain::~vtkPolycubeDomain()
+{
+  this->SetController(nullptr);
+}
+
+//------------------------------------------------------------------------------
+void vtkPolycubeDomain::AddSegment(int segment)
+{
+  this->Segments.push_back(segment);
+  this->Modified();
+}
+
+void vtkPolycubeDomain::ClearSegments()
+{
+  if (!this->Segments.empty())
+  {
+    this->Segments.clear();
+    this->Modified();
+  }
+}
+
+int vtkPolycubeDomain::GetSegment(int i) const
+{
+  return i >= 0 && i < this->GetNumberOfSegments() ? this->Segments[i] : -1;
+}
+
+//------------------------------------------------------------------------------
+void vtkPolycubeDomain::AddSwitchedOffCube(int cube)
+{
+  this->SwitchedOffCubes.push_back(cube);
+  this->Modified();
+}
+
+void vtkPolycubeDomain::ClearSwitchedOffCubes()
+{
+  if (!this->SwitchedOffCubes.empty())
+  {
+    this->SwitchedOffCubes.clear();
+    this->Modified();
+  }
+}
+
+int vtkPolycubeDomain::GetSwitchedOffCube(int i) const
+{
+  return i >= 0 && i < this->GetNumberOfSwitchedOffCubes() ? this->SwitchedOffCubes[i] : -1;
+}
+
+//------------------------------------------------------------------------------
+void vtkPolycubeDomain::AddCornerPosition(double x, double y, double z)
+{
+  this->CornerPositions.insert(this->CornerPositions.end(), { x, y, z });
+  this->Modified();
+}
+
+void vtkPolycubeDomain::ClearCornerPositions()
+{
+  if (!this->CornerPositions.empty())
+  {
+    this->CornerPositions.clear();
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkDoubleArray* vtkPolycubeDomain::GetStartCorners()
+{
+  vtkDoubleArray* corners = this->Internal->StartCorners;
+  corners->SetNumberOfComponents(3);
+  corners->SetNumberOfTuples(0);
+  if (this->Internal->Guess)
+  {
+    try
+    {
+      CornerGuess& guess = *this->Internal->Guess;
+      Execution execution;
+      execution.ParallelFor = SMPParallelFor;
+      const Polycube shape = guess.Shape(this->NumberOfCubes, this->SwitchedOffCubes, execution);
+      for (const Eigen::Vector3d& corner : guess.Corners(shape, execution))
+      {
+        corners->InsertNextTuple(corner.data());
+      }
+    }
+    catch (const std::exception&)
+    {
+      corners->SetNumberOfTuples(0); // the next update tells what is wrong with the shape
+    }
+  }
+  return corners;
+}
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkPolycubeDomain::GetPatches()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+vtkUnstructuredGrid* vtkPolycubeDomain::GetPolycube()
+{
+  return vtkUnstructuredGrid::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+vtkPolyData* vtkPolycubeDomain::GetBorders()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(2));
+}
+
+//------------------------------------------------------------------------------
+int vtkPolycubeDomain::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPolyData" : "vtkPointSet");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port);
+  return 1;
+}
+
+int vtkPolycubeDomain::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 1 ? "vtkUnstructuredGrid" : "vtkPolyData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeBool vtkPolycubeDomain::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
+  {
+    return this->RequestData(inputVector, outputVector);
+  }
+  if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
+  {
+    return this->RequestUpdateExtent(inputVector, outputVector);
+  }
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
+  {
+    for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+    {
+      outputVector->GetInformationObject(port)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+    }
+  }
+  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
+//------------------------------------------------------------------------------
+// Whether every process was asked for its share.
+bool vtkPolycubeDomain::IsGathering(vtkInformationVector* outputVector)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* info = outputVector->GetInformationObject(0);
+  return this->Controller && this->Controller->GetNumberOfProcesses() > 1 &&
+         info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) == this->Controller->GetNumberOfProcesses();
+}
+
+//------------------------------------------------------------------------------
+int vtkPolycubeDomain::RequestUpdateExtent(
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* outInfo = outputVector->GetInformationObject(0);
+  const bool gathering = this->IsGathering(outputVector);
+  for (int port = 0; port < 2; ++port)
+  {
+    if (inputVector[port]->GetNumberOfInformationObjects() > 0)
+    {
+      vtkInformation* inInfo = inputVector[port]->GetInformationObject(0);
+      inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+      inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(),
+        gathering ? outInfo->Get(Pipeline::UPDATE_PIECE_NUMBER()) : 0);
+      inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(),
+        gathering ? outInfo->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) : 1);
+    }
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkPolycubeDomain::RequestData(
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkPolyData* input = vtkPolyData::GetData(inputVector[0]);
+  vtkPointSet* points = vtkPointSet::GetData(inputVector[1]);
+  const bool gathering = this->IsGathering(outputVector);
+  const int piece = outputVector->GetInformationObject(0)->Get(
+    vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
+  if (!gathering && piece > 0)
+  {
+    return 1; // the first piece is all
+  }
+  try
+  {
+    vtkNew<vtkPolyData> surface, corners;
+    surface->ShallowCopy(input);
+    if (points)
+    {
+      corners->SetPoints(points->GetPoints());
+    }
+    if (gathering)
+    {
+      vtkNew<vtkPolyData> allCorners;
+      surface->Initialize();
+      GatherSurface(input, surface, this->Controller);
+      GatherSurface(corners, allCorners, this->Controller);
+      corners->ShallowCopy(allCorners);
+      if (this->Controller->GetLocalProcessId() > 0)
+      {
+        return 1;
+      }
+      vtkWarningMacro("Domains are made on one process: the pieces of "
+                      << this->Controller->GetNumberOfProcesses()
+                      << " processes were gathered to process 0.");
+    }
+    this->MakeDomains(surface, points ? corners.Get() : nullptr, outputVector);
+  }
+  catch (const Aborted&)
+  {
+    return 1; // the executive empties the outputs
+  }
+  catch (const std::bad_alloc&)
+  {
+    vtkErrorMacro("Out of memory; coarsen the surface.");
+    return 0;
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkPolycubeDomain::MakeDomains(
+  vtkPolyData* input, vtkPolyData* corners, vtkInformationVector* outputVector)
+{
+  const LabelledSurface surface = ReadSurface(input);
+  const std::vector<int> chosen = this->Segments.empty() ? SegmentsIn(surface) : this->Segments;
+  DomainSettings settings;
+  settings.Options.CornerCost = this->CornerCost;
+  settings.Options.MostCubes = this->MostCubes;
+  settings.Layered = this->Layered;
+  settings.LayerDepth = this->LayerDepth;
+  this->Internal->GuessFor(surface, chosen, settings.Options);
+
+  DomainSet domains;
+  std::vector<Eigen::Vector3d> picked;
+  if (this->Mode == AUTOMATIC)
+  {
+    domains = FindDomains(surface, chosen, settings, SMPExecution(this));
+    if (this->Internal->Guess && domains.Segments.size() == 1)
+    {
+      this->Internal->Guess->SetAutomatic(domains.Surfaces[0].Domain);
+    }
+  }
+  else if (chosen.size() != 1)
+  {
+    throw std::invalid_argument("Corners are picked for one segment; of " +
+                                std::to_string(chosen.size()) + " choose one with Segments.");
+  }
+  else
+  {
+    try
+    {
+      picked = corners                         ? ReadPoints(corners)
+               : this->CornerPositions.empty() ? std::vector<Eigen::Vector3d>()
+                                               : PointsOf(this->CornerPositions);
+      domains = this->Internal->ByHand(surface, chosen[0], settings, this, picked);
+    }
+    catch (const std::invalid_argument& error)
+    {
+      throw std::invalid_argument("Segment " + std::to_string(chosen[0]) + ": " + error.what());
+    }
+  }
+  std::string failures;
+  for (const std::string& failure : domains.Failures)
+  {
+    failures += (failures.empty() ? "" : "\n") + failure;
+  }
+  if (domains.Segments.empty())
+  {
+    throw std::runtime_error("There is no domain. " + failures);
+  }
+  for (const std::string& remark : domains.Remarks)
+  {
+    failures += (failures.empty() ? "" : "\n") + remark;
+  }
+  if (!failures.empty())
+  {
+    vtkWarningMacro(<< failures);
+  }
+  WriteDomains(surface, domains, picked, vtkPolyData::GetData(outputVector, 0),
+    vtkUnstructuredGrid::GetData(outputVector, 1), vtkPolyData::GetData(outputVector, 2));
+}
+
+//------------------------------------------------------------------------------
+void vtkPolycubeDomain::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Mode: " << (this->Mode == AUTOMATIC ? "Automatic" : "Manual") << "\n";
+  os << indent << "Segments:";
+  for (const int segment : this->Segments)
+  {
+    os << " " << segment;
+  }
+  os << "\n"
+     << indent << "NumberOfCubes: " << this->NumberOfCubes[0] << " " << this->NumberOfCubes[1]
+     << " " << this->NumberOfCubes[2] << "\n";
+  os << indent << "SwitchedOffCubes:";
+  for (const int cube : this->SwitchedOffCubes)
+  {
+    os << " " << cube;
+  }
+  os << "\n" << indent << "CornerPositions: " << this->GetNumberOfCornerPositions() << "\n";
+  os << indent << "SnapLimit: " << this->SnapLimit << "\n";
+  os << indent << "CornerCost: " << this->CornerCost << "\n";
+  os << indent << "MostCubes: " << this->MostCubes << "\n";
+  os << indent << "Layered: " << this->Layered << "\n";
+  os << indent << "LayerDepth: " << this->LayerDepth << "\n";
+  os << indent << "Controller: " << this->Controller << "\n";
+}

@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkPolycubeDomain
+ * @brief   cubes as the parameter domain of a segment, and their faces laid out on its surface
+ *
+ * Each segment gets a group of glued cubes. The corners of the group lie on the surface of the
+ * segment; geodesics between them, which never cross, cut the surface into patches, one for each
+ * face between a cube and the outside. On a patch one of the parameters u, v, w is constant.
+ *
+ * Automatic: cubes, corners and patches are found, so that the normals of the surface point along
+ * the axes of the patches, at a cost for each corner. A segment with one cavity is a shell around
+ * it, of six blocks; where the cavity is filled by a segment with a domain of one cube, both
+ * segments share that surface, its corners, patches and coordinates.
+ *
+ * Manual: the shape is NumberOfCubes, without those that are switched off, and each corner of the
+ * shape has a point near the surface, to which it is moved. Corners are those lattice points of the
+ * shape that lie on its boundary, in order of w, then v, then u: of one cube (0, 0, 0), (1, 0, 0),
+ * (0, 1, 0), (1, 1, 0), (0, 0, 1), ... Their points come from the second input or from
+ * CornerPositions; where there are none, from the corners that were found automatically.
+ *
+ * Layered, the default: every patch gets a block of its own along the surface, around cubes with
+ * corners inside: 8 + 8 corners and 7 blocks for one cube. A smooth surface is not forced into a
+ * cube's edges, and the ramp of density at the boundary has a direction of its own.
+ *
+ * @par Input
+ * Port 0: vtkPolyData with triangles, a closed surface of each segment. The cell array
+ * BoundaryLabels (2 components, see vtkSegmentBoundary) says which triangles are whose; without it
+ * all is the surface of segment 1. Port 1 (optional): vtkPointSet, the points of the corners in
+ * manual mode.
+ *
+ * @par Output
+ * Port 0, patches: vtkPolyData, for each segment the triangles of its surface, cut along the
+ * borders, seen from outside of it (what two segments share is there for both, with common
+ * points).
+ * - cells: Patch (int32); PatchAxis (int8): 0, 1, 2, aligned with u, v, w of the block that it
+ *   bounds; PatchSide (int8): 0 at the low end of the block, 1 at the high end; Segment (int32);
+ *   BoundaryLabels (int32 x 2), that segment and the one on the other side.
+ * - points: CornerId (int32), -1 where no corner is.
+ *
+ * Port 1, polycube: vtkUnstructuredGrid with a hexahedron for each block.
+ * - points: DomainCoordinates (int32 x 3), where the corner lies in the integer polycube (an inner
+ *   corner: as the one above it); CornerId (int32), -1 for points inside; SnapDistance (double, if
+ *   corners were given), how far each was moved.
+ * - cells: Segment; Block (int32), the group of cubes that shares one (u, v, w) grid: all of a
+ *   segment, or each by itself where there are layers; Patch (int32), on which the block stands, or
+ *   -1.
+ *
+ * Port 2, borders: vtkPolyData with a line for each border between two patches.
+ * - points: CornerId (int32), -1 but for the ends. cells: BorderPatches (int32 x 2), on the left
+ *   and on the right, seen from outside.
+ *
+ * @par Cost
+ * A surface of 1e5 triangles: about a second for each segment. Memory: about 1 kB a triangle.
+ *
+ * @par Distributed data
+ * Under several processes the pieces are gathered to process 0 with a warning; it gives the same
+ * result as one process would, the others give empty outputs.
+ *
+ * @par Errors
+ * A surface that is empty, not of triangles, open or not two-manifold; a segment that is not there;
+ * in manual mode corners fewer or more than the shape has, two at one place, farther than SnapLimit
+ * from the surface, mirrored. Where some of several segments get no domain, a warning says why;
+ * where none gets one, an error does.
+ *
+ * @sa vtkSegmentBoundary vtkSegmentTopology
+ */
+#ifndef vtkPolycubeDomain_h
+#define vtkPolycubeDomain_h
+
+#include "vtkAlgorithm.h"
+#include "vtkTrivariateFiltersModule.h" // for export macro
+
+#include <memory> // for Internals
+#include <vector> // for Segments
+
+class vtkDoubleArray;
+class vtkInformation;
+class vtkInformationVector;
+class vtkMultiProcessController;
+class vtkPolyData;
+class vtkUnstructuredGrid;
+
+class VTKTRIVARIATEFILTERS_EXPORT vtkPolycubeDomain : public vtkAlgorithm
+{
+public:
+  static vtkPolycubeDomain* New();
+  vtkTypeMacro(vtkPolycubeDomain, vtkAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum Modes
+  {
+    AUTOMATIC = 0,
+    MANUAL = 1
+  };
+
+  ///@{
+  /**
+   * Whether shape and corners are found (AUTOMATIC, 0) or given (MANUAL, 1). Default is AUTOMATIC.
+   */
+  vtkSetClampMacro(Mode, int, AUTOMATIC, MANUAL);
+  vtkGetMacro(Mode, int);
+  void SetModeToAutomatic() { this->SetMode(AUTOMATIC); }
+  void SetModeToManual() { this->SetMode(MANUAL); }
+  ///@}
+
+  ///@{
+  /**
+   * The segments that get a domain. Default is none, which means all but 0, the background.
+   */
+  void AddSegment(int segment);
+  void ClearSegments();
+  int GetNumberOfSegments() const { return static_cast<int>(this->Segments.size()); }
+  int GetSegment(int i) const;
+  ///@}
+
+  ///@{
+  /**
+   * In manual mode, the number of cubes along u, v and w. Default is (0, 0, 0), which means the
+   * shape that is found automatically.
+   */
+  vtkSetVector3Macro(NumberOfCubes, int);
+  vtkGetVector3Macro(NumberOfCubes, int);
+  ///@}
+
+  ///@{
+  /**
+   * Cubes that the shape does without, as u + nu (v + nv w), counted from 0. Default is none.
+   */
+  void AddSwitchedOffCube(int cube);
+  void ClearSwitchedOffCubes();
+  int GetNumberOfSwitchedOffCubes() const
+  {
+    return static_cast<int>(this->SwitchedOffCubes.size());
+  }
+  int GetSwitchedOffCube(int i) const;
+  ///@}
+
+  ///@{
+  /**
+   * In manual mode without a second input, the points of the corners, in the order told above.
+   * Default is none, which means those of GetStartCorners().
+   */
+  void AddCornerPosition(double x, double y, double z);
+  void AddCornerPosition(const double position[3])
+  {
+    this->AddCornerPosition(position[0], position[1], position[2]);
+  }
+  void ClearCornerPositions();
+  int GetNumberOfCornerPositions() const
+  {
+    return static_cast<int>(this->CornerPositions.size() / 3);
+  }
+  ///@}
+
+  /**
+   * Corners to start from, after an update: of the shape of manual mode, on the surface, as they
+   * were found automatically or, for a shape of another kind, spread over the cube that was. Empty
+   * where there is not just one segment, or it has none.
+   */
+  vtkDoubleArray* GetStartCorners();
+
+  ///@{
+  /**
+   * How far from the surface a given corner may be, as a share of the surface's diagonal. Default
+   * is 0.1.
+   */
+  vtkSetClampMacro(SnapLimit, double, 0.0, 1.0);
+  vtkGetMacro(SnapLimit, double);
+  ///@}
+
+  ///@{
+  /**
+   * In automatic mode, how much alignment (the area-weighted mean of the cosine between normals
+   * and the directions of the patches) one more corner must bring. 0: as many cubes as align best;
+   * 1: one cube wherever one will do. Valid range [0, 1]. Default is 0.01.
+   */
+  vtkSetClampMacro(CornerCost, double, 0.0, 1.0);
+  vtkGetMacro(CornerCost, double);
+  ///@}
+
+  ///@{
+  /**
+   * In automatic mode, the largest number of cubes of a segment. Valid range [1, 1000]. Default is
+   * 64.
+   */
+  vtkSetClampMacro(MostCubes, int, 1, 1000);
+  vtkGetMacro(MostCubes, int);
+  ///@}
+
+  ///@{
+  /**
+   * Whether every patch gets a block of its own along the surface. Default is true.
+   */
+  vtkSetMacro(Layered, bool);
+  vtkGetMacro(Layered, bool);
+  vtkBooleanMacro(Layered, bool);
+  ///@}
+
+  ///@{
+  /**
+   * How deep the blocks along the surface are, in mean edges of the surface's triangles, that is
+   * about voxels; never deeper than half of the way to the middle. Default is 0, which means 2.5.
+   */
+  vtkSetClampMacro(LayerDepth, double, 0.0, 1e6);
+  vtkGetMacro(LayerDepth, double);
+  ///@}
+
+  ///@{
+  /**
+   * Processes that share distributed data. Default is the global controller.
+   */
+  void SetController(vtkMultiProcessController* controller);
+  vtkMultiProcessController* GetController() const { return this->Controller; }
+  ///@}
+
+  vtkPolyData* GetPatches();
+  vtkUnstructuredGrid* GetPolycube();
+  vtkPolyData* GetBorders();
+
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+protected:
+  vtkPolycubeDomain();
+  ~vtkPolycubeDomain() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+
+private:
+  vtkPolycubeDomain(const vtkPolycubeDomain&) = delete;
+  void operator=(const vtkPolycubeDomain&) = delete;
+
+  bool IsGathering(vtkInformationVector* outputVector);
+  int RequestUpdateExtent(vtkInformationVector** inputVector, vtkInformationVector* outputVector);
+  int RequestData(vtkInformationVector** inputVector, vtkInformationVector* outputVector);
+  void MakeDomains(vtkPolyData* surface, vtkPolyData* corners, vtkInformationVector* outputVector);
+
+  std::vector<int> Segments;
+  int Mode = AUTOMATIC;
+  int NumberOfCubes[3] = { 0, 0, 0 };
+  std::vector<int> SwitchedOffCubes;
+  std::vector<double> CornerPositions;
+  double SnapLimit = 0.1;
+  double CornerCost = 0.01;
+  int MostCubes = 64;
+  bool Layered = true;
+  double LayerDepth = 0.0;
+  vtkMultiProcessController* Controller = nullptr;
+
+  struct Internals;
+  std::unique_ptr<Internals> Internal;
+};
+
+#endif
