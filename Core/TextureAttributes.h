@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
+// clang-format off
 /**
  * Haralick's texture attributes of a co-occurrence matrix.
  *
@@ -28,13 +29,14 @@
  *   InverseDifference                          E[1 / (1 + d)]                   1/G .. 1
  *   NormalisedInverseDifference                E[1 / (1 + d/G)]                 G/(2G-1) .. 1
  *   InverseDifferenceMoment            f5      E[1 / (1 + d^2)]                 1/(1+(G-1)^2) .. 1
- *   NormalisedInverseDifferenceMoment          E[1 / (1 + (d/G)^2)]             1/(1+(1-1/G)^2) ..
- * 1 InverseVariance                            E[1 / d^2; d > 0]                0 .. 1 Correlation
- * f3      E[(i - mu)(j - mu)] / sigma^2    -1 .. 1 Autocorrelation                            E[i
- * j]                           1 .. G^2 ClusterTendency                            E[(s - 2 mu)^2]
- * 0 .. (G-1)^2 ClusterShade                               E[(s - 2 mu)^3]                  -+ R^3 /
- * (6 sqrt 3) ClusterProminence                          E[(s - 2 mu)^4]                  0 .. R^4 /
- * 12 InformationCorrelation1            f12     (H(i, j) - 2 H(i)) / H(i)        -1 .. 0
+ *   NormalisedInverseDifferenceMoment          E[1 / (1 + (d/G)^2)]             1/(1+(1-1/G)^2) .. 1
+ *   InverseVariance                            E[1 / d^2; d > 0]                0 .. 1
+ *   Correlation                        f3      E[(i - mu)(j - mu)] / sigma^2    -1 .. 1
+ *   Autocorrelation                            E[i j]                           1 .. G^2
+ *   ClusterTendency                            E[(s - 2 mu)^2]                  0 .. (G-1)^2
+ *   ClusterShade                               E[(s - 2 mu)^3]                  -+ R^3 / (6 sqrt 3)
+ *   ClusterProminence                          E[(s - 2 mu)^4]                  0 .. R^4 / 12
+ *   InformationCorrelation1            f12     (H(i, j) - 2 H(i)) / H(i)        -1 .. 0
  *   InformationCorrelation2            f13     sqrt(1 - exp(-2 (2 H(i) - H(i, j))))
  *                                                             0 .. sqrt(1 - exp(-2 log2 G))
  *   MaximalCorrelationCoefficient      f14     second singular value of
@@ -46,6 +48,7 @@
  * the correlations f3 and f14 are 1, the information correlations f12 and f13 are 0, as in
  * PyRadiomics. A matrix without any pair has the attributes of one with the lowest level only.
  */
+// clang-format on
 #ifndef trivariate_TextureAttributes_h
 #define trivariate_TextureAttributes_h
 
