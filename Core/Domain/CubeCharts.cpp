@@ -21,6 +21,8 @@ namespace
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+constexpr int CentringRounds = 3;
+constexpr int FrameSmoothing = 4; // rounds
 constexpr double TwoPi = 6.283185307179586;
 
 double SignOf(ChartLabel label)
@@ -57,39 +59,88 @@ public:
 
   CubeCharts Best()
   {
-    std::vector<std::pair<Index, Index>> poles{ this->FarthestPoints() };
+    std::vector<std::array<Index, 2>> poles{ this->FarthestPoints() };
     for (const Vector3d& axis : this->Axes())
     {
-      poles.emplace_back(this->Extreme(-axis), this->Extreme(axis));
+      poles.push_back({ this->Extreme(-axis), this->Extreme(axis) });
     }
-    CubeCharts best;
-    double most = -2.0;
     for (std::size_t i = 0; i < poles.size(); ++i)
     {
-      this->Run.Check(0.2 + 0.8 * i / poles.size());
-      if (poles[i].first == poles[i].second)
-      {
-        continue;
-      }
-      for (const bool bent : { false, true })
-      {
-        CubeCharts charts = this->Between(poles[i].first, poles[i].second, bent);
-        const double value = charts.Alignment - (bent ? this->Options.BendingGain : 0.0);
-        if (value > most && AreCubeCharts(this->Mesh, charts.Labels))
-        {
-          most = value;
-          best = std::move(charts);
-        }
-      }
+      this->Run.Check(0.2 + 0.6 * i / poles.size());
+      this->Try(poles[i][0], poles[i][1]);
     }
-    if (most == -2.0)
+    if (this->Most == -2.0)
     {
       throw std::runtime_error("No cube could be laid on the surface.");
     }
-    return best;
+    // Poles in the middle of faces bring out what a cube can be better than those at its extremes.
+    for (int round = 0; round < CentringRounds; ++round)
+    {
+      const std::vector<ChartLabel> labels = this->Found.Labels;
+      for (ChartLabel low : { 0, 2, 4 })
+      {
+        this->Run.Check(0.8 + 0.2 * (round + low / 6.0) / CentringRounds);
+        this->Try(this->MiddleOf(labels, low), this->MiddleOf(labels, low + 1));
+      }
+      if (labels == this->Found.Labels)
+      {
+        break;
+      }
+    }
+    return std::move(this->Found);
   }
 
 private:
+  // Keeps the charts between two poles if they are the best so far.
+  void Try(Index low, Index high)
+  {
+    if (low == high)
+    {
+      return;
+    }
+    for (const bool bent : { false, true })
+    {
+      CubeCharts charts = this->Between(low, high, bent);
+      const double value = charts.Alignment - (bent ? this->Options.BendingGain : 0.0);
+      if (value > this->Most && AreCubeCharts(this->Mesh, charts.Labels))
+      {
+        this->Most = value;
+        this->Found = std::move(charts);
+      }
+    }
+  }
+
+  // The point of a chart nearest to its centre.
+  Index MiddleOf(const std::vector<ChartLabel>& labels, int label) const
+  {
+    Vector3d centre = Vector3d::Zero();
+    double area = 0.0;
+    for (std::size_t t = 0; t < labels.size(); ++t)
+    {
+      if (labels[t] == label)
+      {
+        centre += this->Areas[t] * this->Centres[t];
+        area += this->Areas[t];
+      }
+    }
+    centre /= area;
+    Index nearest = -1;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t t = 0; t < labels.size(); ++t)
+    {
+      for (const Index p : this->Mesh.Triangles[t])
+      {
+        const double distance = (this->Mesh.Points[p] - centre).squaredNorm();
+        if (labels[t] == label && distance < least)
+        {
+          least = distance;
+          nearest = p;
+        }
+      }
+    }
+    return nearest;
+  }
+
   void SmoothNormals()
   {
     std::vector<Vector3d> smooth(this->Normals.size());
@@ -142,7 +193,7 @@ private:
   }
 
   // The ends of a longest way along the edges: two sweeps from a point that is far from the centre.
-  std::pair<Index, Index> FarthestPoints() const
+  std::array<Index, 2> FarthestPoints() const
   {
     const Index a = this->FarthestFrom(0);
     const Index b = this->FarthestFrom(a);
@@ -299,21 +350,28 @@ private:
     }
   }
 
-  // One rotation of all frames in their own axes toward the normals of the labels.
+  // Turns each frame toward the normals of its labels, and less so of those of the frames before
+  // and after it.
   void Refit(CubeCharts& charts) const
   {
-    Matrix3d correlation = Matrix3d::Zero();
+    std::vector<Matrix3d> correlations(charts.Frames.size(), Matrix3d::Zero());
     for (std::size_t t = 0; t < charts.Labels.size(); ++t)
     {
-      const Vector3d n = charts.Frames[charts.FrameOfTriangle[t]] * this->Normals[t];
-      correlation.row(charts.Labels[t] / 2) +=
-        SignOf(charts.Labels[t]) * this->Areas[t] * n.transpose();
+      correlations[charts.FrameOfTriangle[t]].row(charts.Labels[t] / 2) +=
+        SignOf(charts.Labels[t]) * this->Areas[t] * this->Normals[t].transpose();
     }
-    const Matrix3d turn = ClosestRotation(correlation);
-    for (Matrix3d& frame : charts.Frames)
+    const std::size_t last = correlations.size() - 1;
+    for (int round = 0; round < FrameSmoothing; ++round)
     {
-      frame = turn * frame;
+      const std::vector<Matrix3d> before = correlations;
+      for (std::size_t i = 0; i <= last; ++i)
+      {
+        correlations[i] =
+          0.25 * before[i > 0 ? i - 1 : i] + 0.5 * before[i] + 0.25 * before[std::min(last, i + 1)];
+      }
     }
+    std::transform(
+      correlations.begin(), correlations.end(), charts.Frames.begin(), ClosestRotation);
   }
 
   ChartRewards Rewards(const CubeCharts& charts) const
@@ -349,6 +407,8 @@ private:
   std::vector<Vector3d> Normals, Centres;
   double Area = 0.0;
   Vector3d Centre = Vector3d::Zero();
+  CubeCharts Found;
+  double Most = -2.0; // the value of what was found
 };
 }
 

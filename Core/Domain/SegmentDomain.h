@@ -14,7 +14,7 @@ struct DomainOptions
   CubeChartOptions Charts;
   /// How much alignment (see SegmentDomain) one more corner must bring. 0: as many cubes as align
   /// best; 1: one cube wherever one will do.
-  double CornerCost = 0.004;
+  double CornerCost = 0.0015;
   /// Domains with more cubes are not looked at.
   Index MostCubes = 64;
 };
