@@ -148,7 +148,8 @@ void Writer::Patches(vtkPolyData* output) const
   output->SetPoints(points);
   output->SetPolys(cells);
   output->GetPointData()->AddArray(cornerId);
-  vtkDataArray* const arrays[] = { patch, axis, side, owner, labels };
+  output->GetCellData()->SetScalars(patch); // ParaView's first choice for colors
+  vtkDataArray* const arrays[] = { axis, side, owner, labels };
   for (vtkDataArray* array : arrays)
   {
     output->GetCellData()->AddArray(array);

@@ -192,6 +192,10 @@ vtkDoubleArray* vtkPolycubeDomain::GetStartCorners()
       corners->SetNumberOfTuples(0); // the next update tells what is wrong with the shape
     }
   }
+  if (corners->GetNumberOfTuples() == 0)
+  {
+    corners->InsertNextTuple3(0.0, 0.0, 0.0);
+  }
   return corners;
 }
 
@@ -366,9 +370,9 @@ void vtkPolycubeDomain::MakeDomains(
   {
     try
     {
-      picked = corners                         ? ReadPoints(corners)
-               : this->CornerPositions.empty() ? std::vector<Eigen::Vector3d>()
-                                               : PointsOf(this->CornerPositions);
+      picked = corners                                   ? ReadPoints(corners)
+               : this->GetNumberOfCornerPositions() == 1 ? std::vector<Eigen::Vector3d>()
+                                                         : PointsOf(this->CornerPositions);
       domains = this->Internal->ByHand(surface, chosen[0], settings, this, picked);
     }
     catch (const std::invalid_argument& error)

@@ -139,7 +139,8 @@ public:
   ///@{
   /**
    * In manual mode without a second input, the points of the corners, in the order told above.
-   * Default is none, which means those of GetStartCorners().
+   * Default is none, which means those of GetStartCorners(). So does a single one, which no shape
+   * has: ParaView's handles cannot be none.
    */
   void AddCornerPosition(double x, double y, double z);
   void AddCornerPosition(const double position[3])
@@ -155,8 +156,8 @@ public:
 
   /**
    * Corners to start from, after an update: of the shape of manual mode, on the surface, as they
-   * were found automatically or, for a shape of another kind, spread over the cube that was. Empty
-   * where there is not just one segment, or it has none.
+   * were found automatically or, for a shape of another kind, spread over the cube that was. A
+   * single one at the origin where there is not just one segment, or it has none.
    */
   vtkDoubleArray* GetStartCorners();
 
