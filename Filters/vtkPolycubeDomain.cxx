@@ -8,7 +8,6 @@
 #include "SegmentDomains.h"
 #include "SegmentSurface.h"
 
-#include "vtkDemandDrivenPipeline.h"
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -230,28 +229,6 @@ int vtkPolycubeDomain::FillOutputPortInformation(int port, vtkInformation* info)
 }
 
 //------------------------------------------------------------------------------
-vtkTypeBool vtkPolycubeDomain::ProcessRequest(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
-  {
-    return this->RequestData(inputVector, outputVector);
-  }
-  if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
-  {
-    return this->RequestUpdateExtent(inputVector, outputVector);
-  }
-  if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
-  {
-    for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
-    {
-      outputVector->GetInformationObject(port)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
-    }
-  }
-  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
-}
-
-//------------------------------------------------------------------------------
 // Whether every process was asked for its share.
 bool vtkPolycubeDomain::IsGathering(vtkInformationVector* outputVector)
 {
@@ -263,7 +240,7 @@ bool vtkPolycubeDomain::IsGathering(vtkInformationVector* outputVector)
 
 //------------------------------------------------------------------------------
 int vtkPolycubeDomain::RequestUpdateExtent(
-  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   vtkInformation* outInfo = outputVector->GetInformationObject(0);
@@ -285,7 +262,7 @@ int vtkPolycubeDomain::RequestUpdateExtent(
 
 //------------------------------------------------------------------------------
 int vtkPolycubeDomain::RequestData(
-  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPolyData* input = vtkPolyData::GetData(inputVector[0]);
   vtkPointSet* points = vtkPointSet::GetData(inputVector[1]);

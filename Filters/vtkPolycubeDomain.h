@@ -68,24 +68,22 @@
 #ifndef vtkPolycubeDomain_h
 #define vtkPolycubeDomain_h
 
-#include "vtkAlgorithm.h"
+#include "vtkPolyDataAlgorithm.h"
 #include "vtkTrivariateFiltersModule.h" // for export macro
 
 #include <memory> // for Internals
 #include <vector> // for Segments
 
 class vtkDoubleArray;
-class vtkInformation;
-class vtkInformationVector;
 class vtkMultiProcessController;
 class vtkPolyData;
 class vtkUnstructuredGrid;
 
-class VTKTRIVARIATEFILTERS_EXPORT vtkPolycubeDomain : public vtkAlgorithm
+class VTKTRIVARIATEFILTERS_EXPORT vtkPolycubeDomain : public vtkPolyDataAlgorithm
 {
 public:
   static vtkPolycubeDomain* New();
-  vtkTypeMacro(vtkPolycubeDomain, vtkAlgorithm);
+  vtkTypeMacro(vtkPolycubeDomain, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   enum Modes
@@ -219,23 +217,22 @@ public:
   vtkUnstructuredGrid* GetPolycube();
   vtkPolyData* GetBorders();
 
-  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
-
 protected:
   vtkPolycubeDomain();
   ~vtkPolycubeDomain() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
 
 private:
   vtkPolycubeDomain(const vtkPolycubeDomain&) = delete;
   void operator=(const vtkPolycubeDomain&) = delete;
 
   bool IsGathering(vtkInformationVector* outputVector);
-  int RequestUpdateExtent(vtkInformationVector** inputVector, vtkInformationVector* outputVector);
-  int RequestData(vtkInformationVector** inputVector, vtkInformationVector* outputVector);
   void MakeDomains(vtkPolyData* surface, vtkPolyData* corners, vtkInformationVector* outputVector);
 
   std::vector<int> Segments;
