@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LayoutBuilder.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 
 namespace trivariate
 {
@@ -160,15 +162,32 @@ void FindBorders(const SurfaceMesh& mesh, const std::vector<Index>& charts, Layo
   {
     cornerOfPoint[builder.Corners[i]] = static_cast<Index>(i);
   }
+  // In order of labels, the lower one on the left, so that the order of the triangles has no say.
+  struct Beginning
+  {
+    ChartLabel Left, Right;
+    Index Corner, Triangle;
+  };
+  std::vector<Beginning> beginnings;
   for (const Index corner : builder.Corners)
   {
     for (const Index t : Beginnings(mesh, charts, corner))
     {
-      if (builder.Mesh.Mark(t, mesh.CornerOf(t, corner)) < 0)
+      const Index across = mesh.Neighbour(t, mesh.CornerOf(t, corner));
+      const Beginning beginning{ builder.PatchLabels[charts[t]],
+        builder.PatchLabels[charts[across]], corner, t };
+      if (beginning.Left < beginning.Right)
       {
-        WalkBorder(mesh, charts, cornerOfPoint, corner, t, builder);
+        beginnings.push_back(beginning);
       }
     }
+  }
+  std::stable_sort(beginnings.begin(), beginnings.end(),
+    [](const Beginning& a, const Beginning& b)
+    { return std::tie(a.Left, a.Right) < std::tie(b.Left, b.Right); });
+  for (const Beginning& beginning : beginnings)
+  {
+    WalkBorder(mesh, charts, cornerOfPoint, beginning.Corner, beginning.Triangle, builder);
   }
   for (Index t = 0; t < mesh.NumberOfTriangles(); ++t)
   {

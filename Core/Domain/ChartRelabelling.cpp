@@ -276,12 +276,12 @@ void KeepLargestPieces(const SurfaceMesh& mesh, std::vector<ChartLabel>& labels)
     {
       for (int k = 0; k < 3 && !isLargest(before, t); ++k)
       {
+        // Of several neighbours the one of the lowest label.
         const Index other = mesh.Neighbour(t, k);
-        if (isLargest(before, other))
+        if (isLargest(before, other) && (labels[t] == before[t] || before[other] < labels[t]))
         {
           labels[t] = before[other];
           changed = true;
-          break;
         }
       }
     }

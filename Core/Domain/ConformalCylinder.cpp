@@ -157,7 +157,8 @@ CylinderCoordinates ConformalCylinder::Map(Index low, Index high) const
   result.Angle.resize(n);
   for (Index p = 0; p < n; ++p)
   {
-    result.Angle[p] = angle[p] - 2.0 * Pi * std::floor(angle[p] / (2.0 * Pi));
+    const double turned = angle[p] - angle[after[low]];
+    result.Angle[p] = turned - 2.0 * Pi * std::floor(turned / (2.0 * Pi));
   }
   return result;
 }

@@ -21,7 +21,8 @@ namespace trivariate
 struct CylinderCoordinates
 {
   std::vector<double> Height; ///< ascends from `low` to `high`; 2 pi a full turn's length
-  std::vector<double> Angle;  ///< in [0, 2 pi), anticlockwise seen from outside at the high end
+  std::vector<double> Angle;  ///< in [0, 2 pi), anticlockwise seen from outside at the high end;
+                              ///< 0 on the steepest edge at `low`
 };
 
 /// The Laplacian of a surface, factorised once for all pairs of poles. Throws std::runtime_error if

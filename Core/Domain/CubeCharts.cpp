@@ -192,12 +192,15 @@ private:
            points.begin();
   }
 
-  // The ends of a longest way along the edges: two sweeps from a point that is far from the centre.
+  // The ends of a longest way along the edges: two sweeps from the point farthest from the centre.
   std::array<Index, 2> FarthestPoints() const
   {
-    const Index a = this->FarthestFrom(0);
-    const Index b = this->FarthestFrom(a);
-    return { b, this->FarthestFrom(b) };
+    const auto& points = this->Mesh.Points;
+    const auto start = std::max_element(points.begin(), points.end(),
+      [this](const Vector3d& a, const Vector3d& b)
+      { return (a - this->Centre).squaredNorm() < (b - this->Centre).squaredNorm(); });
+    const Index end = this->FarthestFrom(start - points.begin());
+    return { end, this->FarthestFrom(end) };
   }
 
   Index FarthestFrom(Index start) const

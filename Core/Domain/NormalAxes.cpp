@@ -4,6 +4,8 @@
 
 #include "ClosestRotation.h"
 
+#include <cmath>
+
 namespace trivariate
 {
 using Eigen::Matrix3d;
@@ -28,6 +30,20 @@ Matrix3d PrincipalFrame(const std::vector<double>& weights, const std::vector<Ve
   }
   const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(moment);
   Matrix3d frame = principal.eigenvectors().transpose();
+  // Eigenvectors have no sign of their own: the longer tail is on the high side.
+  const auto thirdMoment = [&](int axis)
+  {
+    double third = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      third += weights[i] * std::pow(frame.row(axis).dot(points[i] - centre), 3);
+    }
+    return third;
+  };
+  for (const int axis : { 0, 1 })
+  {
+    frame.row(axis) *= thirdMoment(axis) < 0.0 ? -1.0 : 1.0;
+  }
   frame.row(2) = frame.row(0).cross(frame.row(1));
   return frame;
 }

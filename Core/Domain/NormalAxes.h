@@ -10,7 +10,8 @@
 
 namespace trivariate
 {
-/// The principal axes of weighted points, the one with the least moment first.
+/// The principal axes of weighted points, the one with the least moment first; the first two point
+/// to the side of positive third moment.
 Eigen::Matrix3d PrincipalFrame(
   const std::vector<double>& weights, const std::vector<Eigen::Vector3d>& points);
 
