@@ -22,6 +22,9 @@ namespace trivariate
 {
 namespace
 {
+// Of the surface's diagonal: single precision's rounding where pieces of a surface meet.
+constexpr double SamePlace = 1e-6;
+
 double VolumeOf(const std::vector<Eigen::Vector3d>& points, const std::vector<Triangle>& triangles)
 {
   double volume = 0.0;
@@ -215,7 +218,7 @@ void GatherSurface(vtkPolyData* input, vtkPolyData* whole, vtkMultiProcessContro
   }
   vtkNew<vtkStaticCleanPolyData> merge;
   merge->SetInputConnection(append->GetOutputPort());
-  merge->SetTolerance(0.0);
+  merge->SetTolerance(SamePlace);
   merge->Update();
   whole->ShallowCopy(merge->GetOutput());
 }

@@ -1,0 +1,42 @@
+# SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Run by pvbatch on any number of ranks: makes domains and saves what reaches the client."""
+import sys
+
+import numpy
+from paraview import servermanager
+from paraview.simple import *
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+image = Wavelet(WholeExtent=[-12, 12, -10, 10, -10, 10])
+labels = Calculator(Input=image, ResultArrayName="Segment",
+                    Function="if(mag(coords) < 5.2, 2, if(mag(coords) < 9.2, 1, 0))")
+surface = SegmentBoundary(Input=labels, Labels=["POINTS", "Segment"], UseDensity=0)
+domain = PolycubeDomain(Input=surface)
+domain.UpdatePipeline()
+
+
+def save(source, sphere):
+    arrays = {}
+    for port in range(3):
+        data = servermanager.Fetch(PassArrays(Input=OutputPort(source, port), CellDataArrays=[
+            "Patch", "PatchAxis", "PatchSide", "Segment", "Block", "BorderPatches"],
+            PointDataArrays=["CornerId", "DomainCoordinates"]))
+        arrays[f"{sphere}Points{port}"] = vtk_to_numpy(data.GetPoints().GetData())
+        for attributes in (data.GetCellData(), data.GetPointData()):
+            for i in range(attributes.GetNumberOfArrays()):
+                name = f"{sphere}{attributes.GetArrayName(i)}{port}"
+                arrays[name] = vtk_to_numpy(attributes.GetArray(i))
+    return arrays
+
+
+# A surface of which every rank has a piece, joined where the pieces meet.
+sphere = Sphere(ThetaResolution=24, PhiResolution=24)
+spherical = PolycubeDomain(Input=sphere)
+spherical.UpdatePipeline()
+arrays = save(domain, "")
+arrays["SphereCorners"] = save(spherical, "")["Points1"]
+numpy.savez(sys.argv[1], **arrays)
+
+domain.Segments = [9]
+domain.UpdatePipeline()  # one error, and no rank waits for another
