@@ -11,6 +11,7 @@ import time
 import numpy
 from paraview import simple
 from vtkmodules.numpy_interface import dataset_adapter
+from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkCommonCore import vtkSMPTools
 from vtkmodules.vtkCommonDataModel import vtkImageData
 
@@ -156,6 +157,32 @@ def bound(path, segmentation):
     return boundary
 
 
+def lay_out(patches, domain, segmentation):
+    """Saves the segments' surfaces cut into patches, and the cubes that are their domains. Tells of
+    segments without a domain, and why. Returns the number of segments with one."""
+    whole = simple.SegmentTopology(Input=segmentation)
+    layout = simple.PolycubeDomain(Input=simple.SegmentBoundary(Input=whole))
+    report_progress(layout)
+    algorithm = layout.GetClientSideObject()
+
+    def tell(_, __, text):
+        for line in text.split("): ", 1)[-1].strip().splitlines():  # after VTK's place in the source
+            say("  " + line)
+
+    tell.CallDataType = VTK_STRING
+    for event in ("ErrorEvent", "WarningEvent"):
+        algorithm.AddObserver(event, tell)
+    # The executive only repeats that the filter has failed.
+    algorithm.GetExecutive().AddObserver("ErrorEvent", lambda *_: None)
+    layout.UpdatePipeline()
+    cubes = output_of(layout, 1)
+    if cubes.GetNumberOfCells() == 0:
+        return 0
+    for path, port in ((patches, 0), (domain, 1)):
+        save(path, simple.OutputPort(layout, port), DataMode="Binary", CompressorType="ZLib")
+    return len(set(dataset_adapter.WrapDataObject(cubes).CellData["Segment"]))
+
+
 def count_cells(model):
     mesh = simple.TSplineSource(Input=model, OutputType="T-Mesh")
     mesh.UpdatePipeline()
@@ -208,8 +235,9 @@ def main():
     def path(name):
         return os.path.join(options.output, name)
 
-    if os.path.exists(path("report.json")):
-        os.remove(path("report.json"))  # it stands for a complete set of results
+    for old in ("report.json", "patches.vtp", "domain.vtu"):
+        if os.path.exists(path(old)):
+            os.remove(path(old))  # the first stands for all results; the others may not come anew
     source = step("read", read, options.volume)
     image = output_of(source)
     name = choose_array(image, options.array)
@@ -222,6 +250,7 @@ def main():
     if options.segments is not None:
         segments = step("segment", segment, path("segments.vti"), source, name, options.segments)
         boundary = step("boundary", bound, path("boundary.vtp"), segments)
+        domains = step("domain", lay_out, path("patches.vtp"), path("domain.vtu"), segments)
         step("segments_picture", picture.save_segments, path("segments.png"), segments, boundary,
              name)
     step("picture", picture.save, path("picture.png"), source, resampled, model, name)
@@ -235,7 +264,8 @@ def main():
         "rms_density_percent": rms,
         "max_error": maximum,
         "round_trip_rms_density_percent": round_trip_error(image, output_of(resampled), name),
-        **({} if options.segments is None else {"segments": count_segments(segments)}),
+        **({} if options.segments is None else {"segments": count_segments(segments),
+                                                   "domains": domains}),
         "seconds": step.seconds,
         "peak_memory_bytes": 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss,
         "model_bytes": os.path.getsize(path("model.tspline")),

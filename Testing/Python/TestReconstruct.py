@@ -19,8 +19,8 @@ from trivariate import vtkHydrogenOrbitalSource, vtkTSplineReader
 
 script = pathlib.Path(sys.argv[1]) / "reconstruct.sh"
 KEYS = ["voxels", "control_points", "tmesh_cells", "bezier_cells", "rms_density_percent",
-        "max_error", "round_trip_rms_density_percent", "segments", "seconds", "peak_memory_bytes",
-        "model_bytes", "threads", "version"]
+        "max_error", "round_trip_rms_density_percent", "segments", "domains", "seconds",
+        "peak_memory_bytes", "model_bytes", "threads", "version"]
 
 
 def run(*arguments):
@@ -79,6 +79,16 @@ def test_results():
     assert boundary.GetCellData().GetArray("BoundaryLabels").GetNumberOfComponents() == 2
 
     assert read(vtkPNGReader(), "segments.png").GetDimensions() == (1500, 600, 1)
+
+    # Its largest lobe has a domain of cubes.
+    assert report["domains"] == 1, done.stdout
+    patches = read(vtkXMLPolyDataReader(), "patches.vtp").GetCellData()
+    assert set(vtk_to_numpy(patches.GetArray("Segment"))) == {1}
+    assert set(vtk_to_numpy(patches.GetArray("PatchAxis"))) == {0, 1, 2}
+    domain = read(vtkXMLUnstructuredGridReader(), "domain.vtu")
+    assert domain.GetCellType(0) == VTK_HEXAHEDRON
+    assert set(vtk_to_numpy(domain.GetCellData().GetArray("Patch"))) == (
+        {-1} | set(vtk_to_numpy(patches.GetArray("Patch"))))
 
     picture = vtk_to_numpy(read(vtkPNGReader(), "picture.png").GetPointData().GetScalars())
     assert len(picture) == 1600 * 800
