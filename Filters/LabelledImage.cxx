@@ -10,6 +10,7 @@
 #include "vtkDataArrayRange.h"
 #include "vtkImageData.h"
 #include "vtkMatrix4x4.h"
+#include "vtkPointData.h"
 
 #include <algorithm>
 #include <cmath>
@@ -153,13 +154,22 @@ bool LabelledImage::IsMirrored() const
 }
 
 //------------------------------------------------------------------------------
-LabelledImage ReadLabels(vtkImageData* image, vtkDataArray* labels, vtkDataArray* density)
+vtkDataArray* ChosenLabels(vtkImageData* image, vtkDataArray* chosen, const char* name)
 {
+  const std::string wanted = name ? name : "";
+  const std::string known = wanted.empty() || wanted == "Automatic" ? "Segment" : wanted;
+  vtkDataArray* labels = chosen ? chosen : image->GetPointData()->GetArray(known.c_str());
   if (!labels)
   {
-    throw std::invalid_argument("The image does not have the point array of labels that was "
-                                "chosen; Texture Segmentation makes one, \"Segment\".");
+    throw std::invalid_argument("The image does not have the point array of labels \"" + known +
+                                "\"; choose another, or make one by Texture Segmentation.");
   }
+  return labels;
+}
+
+//------------------------------------------------------------------------------
+LabelledImage ReadLabels(vtkImageData* image, vtkDataArray* labels, vtkDataArray* density)
+{
   LabelledImage result;
   image->GetExtent(result.Extent.data());
   std::copy_n(image->GetIndexToPhysicalMatrix()->GetData(), 16, result.IndexToPhysical.begin());

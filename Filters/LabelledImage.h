@@ -37,8 +37,15 @@ struct LabelledImage
 };
 
 /**
+ * The array of labels: `chosen` by SetInputArrayToProcess, or where that is null the point array
+ * `name`, of a proxy without a choice (null, empty or "Automatic") the one called Segment. Throws
+ * std::invalid_argument where there is none.
+ */
+vtkDataArray* ChosenLabels(vtkImageData* image, vtkDataArray* chosen, const char* name);
+
+/**
  * Copies point arrays of an image; density may be null. Throws std::invalid_argument with a
- * sentence for the user: for no labels, more than one component, labels that are not whole numbers
+ * sentence for the user: for more than one component, labels that are not whole numbers
  * from 0 to 2^31 - 1, a density that is not finite, too little memory.
  */
 LabelledImage ReadLabels(vtkImageData* image, vtkDataArray* labels, vtkDataArray* density);

@@ -78,19 +78,6 @@ bool vtkSegmentBoundary::IsGathering(vtkInformationVector* outputVector)
 }
 
 //------------------------------------------------------------------------------
-// The array of SetInputArrayToProcess(0, ...); without a choice, of a proxy, the one called
-// Segment.
-vtkDataArray* vtkSegmentBoundary::LabelArray(vtkImageData* image)
-{
-  const char* name = this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME());
-  const std::string wanted = name ? name : "";
-  vtkDataArray* chosen = this->GetInputArrayToProcess(0, image);
-  return !chosen && (wanted.empty() || wanted == "Automatic")
-           ? image->GetPointData()->GetArray("Segment")
-           : chosen;
-}
-
-//------------------------------------------------------------------------------
 // The array of SetInputArrayToProcess(1, ...), or the first one fit for it; null if there is none
 // or none is wanted.
 vtkDataArray* vtkSegmentBoundary::DensityArray(vtkImageData* image, vtkDataArray* labels)
@@ -162,7 +149,8 @@ int vtkSegmentBoundary::RequestData(
   {
     if (input->GetNumberOfPoints() > 0)
     {
-      vtkDataArray* labels = this->LabelArray(input);
+      vtkDataArray* labels = ChosenLabels(input, this->GetInputArrayToProcess(0, input),
+        this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME()));
       image = ReadLabels(input, labels, this->DensityArray(input, labels));
     }
   }

@@ -23,8 +23,8 @@
  * Port 0: a vtkImageData with two or more points along each axis. Its point array of labels, whole
  * numbers from 0, is chosen with SetInputArrayToProcess(0, ...), by default "Segment"; its density
  * with SetInputArrayToProcess(1, ...), by default "Automatic": the active scalars or, where these
- * are the labels, the first other point array with one component. If there is none, or UseDensity is
- * off, the labels alone count.
+ * are the labels, the first other point array with one component. If there is none, or UseDensity
+ * is off, the labels alone count.
  *
  * @par Output
  * Port 0: vtkPolyData with triangles, points in double precision, and these arrays:
@@ -34,8 +34,8 @@
  *   turn the polygons accordingly.)
  * - points: Normals (float x 3, the active normals), from the inner to the outer side, in the mean
  *   over the chosen surfaces at the point weighted by angle; Junction (uint8), 0 inside a surface,
- * 1 on a curve where three or more segments (or two and the outside) meet, 2 where such curves end
- *   or meet.
+ *   1 on a curve where three or more segments (or two and the outside) meet, 2 where such curves
+ *   end or meet.
  * The surface of one segment s is where one of the labels is s; turn those where it is the second.
  * Which segments are chosen changes neither points nor triangles, only which are there.
  *
@@ -53,9 +53,9 @@
  * result as one process would, the others give an empty output.
  *
  * @par Errors
- * An image without points or labels, with labels that are no whole numbers or negative, with one label only,
- * one voxel thick, with a density that is not finite, or too large for the memory; a chosen segment
- * that does not exist.
+ * An image without points or labels, with labels that are no whole numbers or negative, with one
+ * label only, one voxel thick, with a density that is not finite, or too large for the memory; a
+ * chosen segment or density that does not exist.
  *
  * @par References
  * S. Gibson. Constrained elastic surface nets. MICCAI 1998. G. Taubin. A signal processing approach
@@ -137,7 +137,6 @@ private:
   void operator=(const vtkSegmentBoundary&) = delete;
 
   bool IsGathering(vtkInformationVector* outputVector);
-  vtkDataArray* LabelArray(vtkImageData* image);
   vtkDataArray* DensityArray(vtkImageData* image, vtkDataArray* labels);
 
   std::vector<int> Segments;

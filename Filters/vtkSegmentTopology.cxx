@@ -181,8 +181,8 @@ int vtkSegmentTopology::RequestData(
   {
     if (input->GetNumberOfPoints() > 0)
     {
-      vtkDataArray* labels = this->GetInputArrayToProcess(0, input);
-      labels = labels ? labels : input->GetPointData()->GetArray("Segment");
+      vtkDataArray* labels = ChosenLabels(input, this->GetInputArrayToProcess(0, input),
+        this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME()));
       image = ReadLabels(input, labels, nullptr);
       name = labels->GetName() ? labels->GetName() : "Segment";
     }
@@ -272,7 +272,13 @@ std::vector<SegmentChanges> vtkSegmentTopology::MakeWhole(LabelledImage& image, 
     ChooseSegments(image.Labels, this->Segments), options, SMPExecution(this));
   for (const SegmentChanges& segment : changes)
   {
-    if (segment.EulerCharacteristic < 1)
+    if (std::find(image.Labels.begin(), image.Labels.end(), segment.Segment) == image.Labels.end())
+    {
+      vtkWarningMacro("Segment " << segment.Segment
+                                 << " is gone: it lay in a cavity or a handle of "
+                                 << "another. A smaller LargestCavity or LargestSheet keeps it.");
+    }
+    else if (segment.EulerCharacteristic < 1)
     {
       vtkWarningMacro("Segment " << segment.Segment << " still has handles: its Euler "
                                  << "characteristic is " << segment.EulerCharacteristic

@@ -34,7 +34,7 @@
  * @par Errors
  * An image without points or labels, labels that are no whole numbers or negative, too large for
  * the memory; a chosen segment that does not exist. A warning for each segment that is not whole
- * in the end.
+ * in the end, or gone.
  *
  * @par Reference
  * Bertrand, Malandain. A new characterization of three-dimensional simple points. Pattern

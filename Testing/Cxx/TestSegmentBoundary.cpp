@@ -341,6 +341,9 @@ TEST(SegmentBoundaryFilter, SaysWhatIsWrongWithTheInput)
   boundary->AddSegment(7);
   ExpectFault(boundary, log, "no segment 7 among the 2 labels from 0 to 1");
   boundary->ClearSegments();
+  boundary->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "absent");
+  ExpectFault(boundary, log, "the point array of labels \"absent\"");
+  boundary->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Segment");
 
   for (double wrong : { 0.5, -1.0, 3e9, std::numeric_limits<double>::quiet_NaN() })
   {

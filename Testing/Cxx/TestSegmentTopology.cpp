@@ -13,8 +13,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace
 {
@@ -124,10 +127,45 @@ TEST(SegmentTopologyFilter, SaysWhatIsWrongWithTheInput)
   topology->Update();
   EXPECT_NE(log.TakeOnly().find("whole numbers"), std::string::npos);
 
-  image->GetPointData()->RemoveArray("Segment");
   topology->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Absent");
   topology->Update();
-  EXPECT_NE(log.TakeOnly().find("array of labels"), std::string::npos);
+  EXPECT_NE(log.TakeOnly().find("array of labels \"Absent\""), std::string::npos);
+  image->GetPointData()->RemoveArray("Segment");
+  topology->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Automatic");
+  topology->Update();
+  EXPECT_NE(log.TakeOnly().find("array of labels \"Segment\""), std::string::npos);
+}
+
+// The inner segment is a small cavity of the outer one, which is made whole after it.
+TEST(SegmentTopologyFilter, WarnsOfASegmentThatIsGone)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(9, 9, 9);
+  vtkNew<vtkIntArray> labels;
+  labels->SetName("Segment");
+  for (vtkIdType id = 0; id < image->GetNumberOfPoints(); ++id)
+  {
+    const double* p = image->GetPoint(id);
+    const double r = std::max({ std::abs(p[0] - 4), std::abs(p[1] - 4), std::abs(p[2] - 4) });
+    labels->InsertNextValue(r < 2.0 ? 2 : r < 4.0 ? 1 : 0);
+  }
+  image->GetPointData()->AddArray(labels);
+  vtkNew<vtkSegmentTopology> topology;
+  topology->SetInputData(image);
+  std::vector<std::string> warnings;
+  vtkNew<vtkCallbackCommand> collect;
+  collect->SetClientData(&warnings);
+  collect->SetCallback([](vtkObject*, unsigned long, void* seen, void* text)
+    { static_cast<std::vector<std::string>*>(seen)->push_back(static_cast<char*>(text)); });
+  topology->AddObserver(vtkCommand::WarningEvent, collect);
+  topology->Update();
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings.front().find("Segment 2 is gone"), std::string::npos);
+
+  warnings.clear();
+  topology->SetLargestCavity(20);
+  topology->Update();
+  EXPECT_TRUE(warnings.empty());
 }
 
 TEST(SegmentTopologyFilter, TakesImagesOneVoxelThickAndOfOneLabel)
