@@ -195,8 +195,8 @@ GatherBytes GatherBytesOf(vtkMultiProcessController* controller)
 }
 
 //------------------------------------------------------------------------------
-std::string SegmentationFault(vtkImageData* image, vtkDataArray* array, const Extent& own,
-  const Extent& whole, const SegmentationOptions& options)
+std::string SegmentationFault(vtkImageData* image, vtkDataArray* array, const char* wanted,
+  const Extent& own, const Extent& whole, const SegmentationOptions& options)
 {
   if (CountOf(whole) == 0)
   {
@@ -208,8 +208,11 @@ std::string SegmentationFault(vtkImageData* image, vtkDataArray* array, const Ex
   }
   if (!array)
   {
-    return "The image does not have the point array that was chosen; use "
-           "SetInputArrayToProcess(0, ...).";
+    return std::string("The image does not have ") +
+           (wanted && *wanted ? "the point array \"" + std::string(wanted) + "\""
+                              : "active point scalars") +
+           "; choose an array by SetInputArrayToProcess(0, ...), or make one of a cell array by "
+           "Cell Data to Point Data.";
   }
   const std::string name = array->GetName() ? array->GetName() : "ImageScalars";
   if (array->GetNumberOfTuples() != image->GetNumberOfPoints())
@@ -242,6 +245,15 @@ std::string SegmentationFault(vtkImageData* image, vtkDataArray* array, const Ex
   {
     return "The image has " + ExtentWords(whole) +
            " points, more than the 2147483647 that can be segmented; crop or coarsen it.";
+  }
+  const double* spacing = image->GetSpacing();
+  if (options.GradientWeight > 0.0 &&
+      std::any_of(spacing, spacing + 3, [](double h) { return !std::isfinite(1.0 / h); }))
+  {
+    std::ostringstream words;
+    words << "There is no gradient in an image with the spacing " << spacing[0] << ", "
+          << spacing[1] << ", " << spacing[2] << "; give it another, or gradients no weight.";
+    return words.str();
   }
   const int reach = SegmentationNeighbourhood(options);
   Extent held;

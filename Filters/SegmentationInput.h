@@ -35,11 +35,13 @@ struct SegmentationInput
 GatherBytes GatherBytesOf(vtkMultiProcessController* controller);
 
 /**
- * What of the image is wrong for these options; empty if nothing. `own` are the first and last
- * indices of the points that count for this process, `whole` those of the volume; the image has to
- * hold the neighbourhood of `own`. A piece without points has no fault, a volume without has.
+ * What of the image is wrong for these options; empty if nothing. `array` is null where the image
+ * does not have the array `wanted` (null or empty: its active scalars). `own` are the first and
+ * last indices of the points that count for this process, `whole` those of the volume; the image
+ * has to hold the neighbourhood of `own`. A piece without points has no fault, a volume without
+ * has.
  */
-std::string SegmentationFault(vtkImageData* image, vtkDataArray* array,
+std::string SegmentationFault(vtkImageData* image, vtkDataArray* array, const char* wanted,
   const std::array<int, 6>& own, const std::array<int, 6>& whole,
   const SegmentationOptions& options);
 

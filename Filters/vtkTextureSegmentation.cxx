@@ -243,6 +243,14 @@ SegmentationOptions vtkTextureSegmentation::Options() const
           << " is not below its second value " << this->GreyLevelRange[1] << ".";
     throw std::invalid_argument(words.str());
   }
+  if (!this->AutomaticGreyLevelRange &&
+      !std::isfinite(this->GreyLevelRange[1] - this->GreyLevelRange[0]))
+  {
+    std::ostringstream words;
+    words << "The grey-level range from " << this->GreyLevelRange[0] << " to "
+          << this->GreyLevelRange[1] << " is not finite.";
+    throw std::invalid_argument(words.str());
+  }
   return options;
 }
 
@@ -294,7 +302,8 @@ int vtkTextureSegmentation::RequestData(
   try
   {
     options = this->Options();
-    fault = SegmentationFault(input, array, own, whole, options);
+    fault = SegmentationFault(input, array,
+      this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME()), own, whole, options);
   }
   catch (const std::exception& error)
   {
@@ -331,8 +340,10 @@ int vtkTextureSegmentation::RequestData(
     }
     else if (process == 0 && result.Segments < this->NumberOfSegments)
     {
-      vtkWarningMacro("The image has " << result.Segments << " segments that differ, not "
-                                       << this->NumberOfSegments << " as asked for.");
+      vtkWarningMacro("The image has "
+                      << result.Segments
+                      << (result.Segments == 1 ? " segment" : " segments that differ") << ", not "
+                      << this->NumberOfSegments << " as asked for.");
     }
   }
   catch (const Aborted&)

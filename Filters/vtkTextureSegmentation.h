@@ -27,9 +27,9 @@
  *
  * @par Cost
  * Time linear in the number of points; see TextureWindow.h for the attributes' part. Memory: 48
- * bytes a point, 4 a point and attribute (8 with OutputAttributes), under several processes 25
- * bytes more for each point of the whole volume on every process. Threaded with vtkSMPTools; the
- * result does not depend on the number of threads.
+ * bytes a point, 4 a point and attribute (8 with OutputAttributes), 8 a segment for each point near
+ * an interface, under several processes 25 bytes more for each point of the whole volume on every
+ * process. Threaded with vtkSMPTools; the result does not depend on the number of threads.
  *
  * @par Distributed data
  * Every process works on its piece, with ghost levels (3 WindowRadius + 1) around it. A sample, the
@@ -38,15 +38,15 @@
  *
  * @par Errors
  * An image without points, without the chosen array, with more than one component, one voxel thick,
- * smaller than a window, with NaN or infinity, with more than 2^31 - 1 points or too large for the
- * memory; an unknown attribute, none at all. A constant image is one segment, with a warning; fewer
- * segments than were asked for give a warning.
+ * smaller than a window, without spacing where the gradient counts, with NaN or infinity, with more
+ * than 2^31 - 1 points or too large for the memory; an unknown attribute, none at all. A constant
+ * image is one segment, with a warning; fewer segments than were asked for give a warning.
  *
  * @par Reference
  * R. M. Haralick, K. Shanmugam, I. Dinstein. Textural features for image classification. IEEE
  * Trans. Systems, Man, Cybernetics 3, 1973.
  *
- * @sa vtkTSplineFit
+ * @sa vtkSegmentTopology vtkSegmentBoundary
  */
 #ifndef vtkTextureSegmentation_h
 #define vtkTextureSegmentation_h

@@ -239,7 +239,7 @@ TEST(TextureSegmentation, SaysWhatIsWrong)
   vtkNew<vtkImageData> image = HalvesImage();
   filter->SetInputData(image);
   filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "absent");
-  ExpectFault(filter, log, "does not have the point array");
+  ExpectFault(filter, log, "does not have the point array \"absent\"");
   filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "density");
 
   vtkDataArray* density = image->GetPointData()->GetArray("density");
@@ -260,7 +260,14 @@ TEST(TextureSegmentation, SaysWhatIsWrong)
   filter->SetAutomaticGreyLevelRange(false);
   filter->SetGreyLevelRange(3.0, 3.0);
   ExpectFault(filter, log, "grey-level range is empty");
+  filter->SetGreyLevelRange(-std::numeric_limits<double>::infinity(), 3.0);
+  ExpectFault(filter, log, "grey-level range from -inf to 3 is not finite");
   filter->SetAutomaticGreyLevelRange(true);
+
+  filter->SetGradientWeight(1.0);
+  image->SetSpacing(0.5, 0.0, 1.0);
+  ExpectFault(filter, log, "no gradient in an image with the spacing 0.5, 0, 1");
+  filter->SetGradientWeight(0.0);
 
   vtkNew<vtkDoubleArray> vectors;
   vectors->SetName("density");
