@@ -99,16 +99,21 @@ vtkDataArray* vtkSegmentBoundary::DensityArray(vtkImageData* image, vtkDataArray
     throw std::invalid_argument("The image has no point array \"" + wanted +
                                 "\" for a density; choose another or switch UseDensity off.");
   }
-  if (data->GetScalars() && data->GetScalars() != labels)
+  const auto isFit = [data, labels](vtkDataArray* array)
+  {
+    return array && array != labels &&
+           array != data->GetArray(vtkDataSetAttributes::GhostArrayName()) &&
+           array->GetNumberOfComponents() == 1;
+  };
+  if (isFit(data->GetScalars()))
   {
     return data->GetScalars();
   }
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
-    vtkDataArray* array = data->GetArray(i);
-    if (array && array != labels && array->GetNumberOfComponents() == 1)
+    if (isFit(data->GetArray(i)))
     {
-      return array;
+      return data->GetArray(i);
     }
   }
   return nullptr;

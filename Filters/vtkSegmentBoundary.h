@@ -23,8 +23,8 @@
  * Port 0: a vtkImageData with two or more points along each axis. Its point array of labels, whole
  * numbers from 0, is chosen with SetInputArrayToProcess(0, ...), by default "Segment"; its density
  * with SetInputArrayToProcess(1, ...), by default "Automatic": the active scalars or, where these
- * are the labels, the first other point array with one component. If there is none, or UseDensity
- * is off, the labels alone count.
+ * are the labels or have more than one component, the first other point array with one. If there
+ * is none, or UseDensity is off, the labels alone count.
  *
  * @par Output
  * Port 0: vtkPolyData with triangles, points in double precision, and these arrays:

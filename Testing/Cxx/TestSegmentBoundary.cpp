@@ -385,4 +385,13 @@ TEST(SegmentBoundaryFilter, SaysWhatIsWrongWithTheInput)
   boundary->Modified();
   boundary->Update();
   EXPECT_GT(boundary->GetOutput()->GetNumberOfCells(), 0);
+
+  // Colours are no density, nor are ghosts.
+  image->GetPointData()->RemoveArray("density");
+  image->GetPointData()->SetActiveScalars("pairs");
+  AddSamples<vtkDoubleArray>(
+    image, vtkDataSetAttributes::GhostArrayName(), [](const double*) { return std::nan(""); });
+  boundary->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Automatic");
+  boundary->Update();
+  EXPECT_GT(boundary->GetOutput()->GetNumberOfCells(), 0);
 }
