@@ -225,6 +225,21 @@ TEST(TextureSegmentation, WarnsWhenThereAreFewerSegments)
   int range[2];
   SegmentsOf(filter->GetOutput())->GetValueRange(range);
   EXPECT_EQ(range[1], 0);
+
+  // Two values, and nothing else to tell by.
+  vtkDataArray* density = image->GetPointData()->GetArray("density");
+  for (vtkIdType id = 0; id < image->GetNumberOfPoints(); ++id)
+  {
+    density->SetComponent(id, 0, 2 * id < image->GetNumberOfPoints() ? 3.0 : 7.0);
+  }
+  image->Modified();
+  filter->ClearTextureAttributes();
+  const std::vector<std::string> again = WarningsOf(filter);
+  ASSERT_EQ(again.size(), 1u);
+  EXPECT_NE(again.front().find("2 segments that differ, not 4"), std::string::npos)
+    << again.front();
+  SegmentsOf(filter->GetOutput())->GetValueRange(range);
+  EXPECT_EQ(range[1], 1);
 }
 
 //------------------------------------------------------------------------------
