@@ -44,7 +44,7 @@ struct PlacementOptions
  * Moves the interfaces between labels 0 .. segments - 1 of a volume; levels are below GreyLevels, x
  * runs fastest. The result does not depend on the threads.
  * Cost: iterations x segments x 26 for each voxel near an interface; 9 bytes a voxel and 8 bytes x
- * segments for each voxel near an interface; 60 bytes x segments x GreyLevels^2.
+ * segments for each voxel near an interface; 160 bytes x segments x GreyLevels^2.
  */
 void PlaceInterfaces(std::vector<Label>& labels, const std::vector<std::uint8_t>& levels,
   const std::array<Index, 3>& size, int segments, const PlacementOptions& options,

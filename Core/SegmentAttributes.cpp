@@ -145,6 +145,7 @@ SegmentAttributes::SegmentAttributes(
     ComputeTexture(
       piece.Levels.data(), piece.Size, this->First, end, options.Texture, out, execution);
   }
+  execution.Check(1.0);
   if (options.DensityWeight > 0.0)
   {
     this->FieldNames.push_back("Density");
@@ -152,6 +153,7 @@ SegmentAttributes::SegmentAttributes(
     this->Fields.push_back(
       Cut(SmoothDensity(piece.Density, piece.Size, execution), piece.Size, this->First, this->Box));
   }
+  execution.Check(1.0);
   if (options.GradientWeight > 0.0)
   {
     this->FieldNames.push_back("GradientMagnitude");

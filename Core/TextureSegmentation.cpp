@@ -144,21 +144,27 @@ private:
 
     const Size3 own = OwnSize(this->Piece);
     std::vector<Label> mine(std::max<Index>(0, Volume(own)));
-    this->Execute.ParallelFor(own[1] * own[2],
-      [&](Index begin, Index end)
+    const auto nearest = [&](Index begin, Index end)
+    {
+      std::vector<double> row(n), coordinates(dimensions);
+      for (Index line = begin; line < end; ++line)
       {
-        std::vector<double> row(n), coordinates(dimensions);
-        for (Index line = begin; line < end; ++line)
+        for (Index i = 0; i < own[0]; ++i)
         {
-          for (Index i = 0; i < own[0]; ++i)
-          {
-            this->Attributes.Row(i, line % own[1], line / own[1], row.data());
-            this->Space.Apply(row.data(), coordinates.data());
-            mine[i + own[0] * line] =
-              static_cast<Label>(NearestCentre(coordinates.data(), dimensions, this->Centres));
-          }
+          this->Attributes.Row(i, line % own[1], line / own[1], row.data());
+          this->Space.Apply(row.data(), coordinates.data());
+          mine[i + own[0] * line] =
+            static_cast<Label>(NearestCentre(coordinates.data(), dimensions, this->Centres));
         }
-      });
+      }
+    };
+    const Index lines = own[1] * own[2], atOnce = (1 << 20) / std::max<Index>(1, own[0]) + 1;
+    for (Index start = 0; start < lines; start += atOnce) // so that it can be stopped
+    {
+      this->Execute.Check(0.75);
+      this->Execute.ParallelFor(std::min(atOnce, lines - start),
+        [&](Index begin, Index end) { nearest(start + begin, start + end); });
+    }
     this->Labels = GatherVolume(this->Piece, mine, this->Gather);
   }
 
@@ -205,12 +211,16 @@ private:
                                                                : window * window * window;
     const PointRows centres = View(this->Centres, this->Space.Dimensions);
     MergeSmallComponents(this->Labels, size, minimum);
+    execution.Check(0.0);
     RemoveShells(this->Labels, size, centres, (radius + 1) / 2, execution);
+    execution.Check(0.0);
     PlacementOptions placement;
     placement.GreyLevels = this->Options.Texture.GreyLevels;
     placement.Reach = radius;
     PlaceInterfaces(this->Labels, this->Levels, size, this->Clusters, placement, execution);
+    execution.Check(1.0);
     RemoveShells(this->Labels, size, centres, 1, execution);
+    execution.Check(1.0);
     MergeSmallComponents(this->Labels, size, minimum);
   }
 

@@ -79,7 +79,8 @@ struct SegmentationResult
 /**
  * Throws std::invalid_argument, std::length_error (2^31 voxels or more) and Aborted.
  * Cost: that of ComputeTexture, then some 100 operations a voxel and attribute. Memory: 4 bytes a
- * voxel and attribute (8 if kept) and 40 bytes a voxel held, 25 bytes a voxel of the whole volume.
+ * voxel and attribute (8 if kept) and 40 bytes a voxel held, 25 bytes a voxel of the whole volume,
+ * 8 bytes a segment for each voxel near an interface.
  */
 SegmentationResult SegmentByTexture(const SegmentationPiece& piece,
   const SegmentationOptions& options, const GatherBytes& gather, const Execution& execution);
