@@ -96,11 +96,12 @@ public:
   void Iterate(int maximum)
   {
     std::fill(this->Nearest.begin(), this->Nearest.end(), -1);
-    for (int i = 0; i<maximum&& this->Assign()> 0; ++i)
+    Index changes = this->Assign();
+    for (int i = 0; i < maximum && changes > 0; ++i)
     {
       this->MoveCentres();
+      changes = this->Assign();
     }
-    this->Assign(); // the distances to the final centres
   }
 
   double Inertia() const

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <vector>
 
 namespace trivariate
 {
@@ -130,6 +131,21 @@ inline TextureAttributeValues PlainAttributes(const CooccurrenceMatrix& matrix)
   set(A::InformationCorrelation2,
     information > 1e-13 ? std::sqrt(-std::expm1(-2.0 * information)) : 0.0);
   return values;
+}
+
+/// The chosen attributes of a matrix that has pairs, in [0, 1].
+inline std::vector<double> PlainNormalised(
+  const CooccurrenceMatrix& matrix, const TextureOptions& options)
+{
+  TextureAttributeValues values = PlainAttributes(matrix);
+  values[TextureAttributeCount - 1] = MaximalCorrelationCoefficient(matrix);
+  std::vector<double> normalised;
+  for (const TextureAttribute a : options.Attributes)
+  {
+    normalised.push_back(
+      NormalisedTextureAttribute(a, options.GreyLevels, values[static_cast<int>(a)]));
+  }
+  return normalised;
 }
 
 /// The window of a voxel, cut at the border.

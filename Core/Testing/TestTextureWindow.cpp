@@ -83,20 +83,6 @@ std::vector<std::vector<Real>> Compute(
   return Compute<Real>(volume, options, { 0, 0, 0 }, volume.Size, execution);
 }
 
-// The attributes of one matrix, in [0, 1].
-std::vector<double> PlainNormalised(const CooccurrenceMatrix& matrix, const TextureOptions& options)
-{
-  TextureAttributeValues values = PlainAttributes(matrix);
-  values[TextureAttributeCount - 1] = MaximalCorrelationCoefficient(matrix);
-  std::vector<double> normalised;
-  for (const A a : options.Attributes)
-  {
-    normalised.push_back(
-      NormalisedTextureAttribute(a, options.GreyLevels, values[static_cast<int>(a)]));
-  }
-  return normalised;
-}
-
 // What ComputeTexture says of a voxel, from the definitions.
 std::vector<double> PlainOutputs(
   const LevelVolume& volume, const Size3& voxel, const TextureOptions& options)
