@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SegmentDomains.h"
 
+#include "Domain/InnerCorners.h"
 #include "Domain/InnerPath.h"
 
 #include <algorithm>
@@ -81,13 +82,23 @@ private:
     return static_cast<Index>(this->Set.Surfaces.size()) - 1;
   }
 
+  void Finish(BlocksOfSegment segment)
+  {
+    const std::string remark = RemarkOn(segment);
+    if (!remark.empty())
+    {
+      this->Set.Remarks.push_back(remark);
+    }
+    this->Set.Segments.push_back(std::move(segment));
+  }
+
   void AddSolid(const SegmentPieces& segment, const Execution& execution)
   {
     const SurfacePiece& piece = segment.Pieces[0];
     SegmentDomain domain = DomainOf(piece.Mesh, this->Settings.Options, execution.Part(0.0, 0.9));
     DomainBlocks blocks = BlocksOf(domain, this->Settings, execution.Part(0.9, 1.0));
     const Index outer = this->Keep(std::move(domain), piece.Origins);
-    this->Set.Segments.push_back({ segment.Segment, outer, -1, std::move(blocks) });
+    this->Finish({ segment.Segment, outer, -1, std::move(blocks) });
     this->OuterOf[piece.Origins] = outer;
   }
 
@@ -102,7 +113,7 @@ private:
       DomainAround(outside.Mesh, core, this->Settings.Options, execution.Part(0.4, 1.0));
     DomainBlocks blocks = ShellBlocks(domain, core);
     const Index outer = this->Keep(std::move(domain), outside.Origins);
-    this->Set.Segments.push_back({ segment.Segment, outer, inner, std::move(blocks) });
+    this->Finish({ segment.Segment, outer, inner, std::move(blocks) });
     this->OuterOf[outside.Origins] = outer;
   }
 
@@ -131,6 +142,18 @@ private:
   // Outer surfaces by their triangles of the labelled surface, ascending.
   std::map<std::vector<Index>, Index> OuterOf;
 };
+}
+
+//------------------------------------------------------------------------------
+std::string RemarkOn(const BlocksOfSegment& segment)
+{
+  const std::size_t inverted = InvertedBlocks(segment.Blocks).size();
+  return inverted == 0
+           ? ""
+           : NameOf(segment.Segment) + ": " + std::to_string(inverted) + " of " +
+               std::to_string(segment.Blocks.Blocks.size()) +
+               " blocks are inverted or flat between their corners, which more cubes or other "
+               "corners may avoid.";
 }
 
 //------------------------------------------------------------------------------

@@ -54,6 +54,9 @@ DomainBlocks BlocksOf(
 DomainSet FindDomains(const LabelledSurface& surface, const std::vector<int>& segments,
   const DomainSettings& settings, const Execution& execution);
 
+/// A sentence on blocks that are inverted; empty where there are none.
+std::string RemarkOn(const BlocksOfSegment& segment);
+
 /// The only piece of a segment's surface. Throws std::invalid_argument where there are more, or
 /// none.
 SurfacePiece OnlyPieceOf(const LabelledSurface& surface, int segment);

@@ -88,6 +88,11 @@ struct vtkPolycubeDomain::Internals
     DomainSet set;
     set.Surfaces.push_back({ std::move(domain), piece.Origins });
     set.Segments.push_back({ segment, 0, -1, std::move(blocks) });
+    const std::string remark = RemarkOn(set.Segments[0]);
+    if (!remark.empty())
+    {
+      set.Remarks.push_back(remark);
+    }
     return set;
   }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DomainLayers.h"
 
+#include "InnerCorners.h"
 #include "InnerPath.h"
 
 #include <Eigen/LU>
@@ -33,20 +34,6 @@ int EndOf(int i, int axis)
 int Across(int i, int axis)
 {
   return Neighbours[i][axis];
-}
-
-// Blocks that are inverted or flat at a corner.
-std::vector<std::size_t> Inverted(const DomainBlocks& blocks)
-{
-  std::vector<std::size_t> inverted;
-  for (std::size_t b = 0; b < blocks.Blocks.size(); ++b)
-  {
-    if (!(ScaledJacobian(blocks.Places, blocks.Blocks[b].Points) > 0.0))
-    {
-      inverted.push_back(b);
-    }
-  }
-  return inverted;
 }
 
 void PlaceInnerCorners(DomainBlocks& blocks, const std::vector<InnerPath>& paths,
@@ -139,7 +126,7 @@ DomainBlocks LayeredBlocks(const SegmentDomain& domain, double depth, const Exec
   }
   PlaceInnerCorners(blocks, paths, depths, below);
   best = depths;
-  std::vector<std::size_t> inverted = Inverted(blocks);
+  std::vector<std::size_t> inverted = InvertedBlocks(blocks);
   std::size_t fewest = inverted.size();
   for (int round = 0; round < MostLessenings && !inverted.empty(); ++round)
   {
@@ -156,7 +143,7 @@ DomainBlocks LayeredBlocks(const SegmentDomain& domain, double depth, const Exec
       depths[corner] *= lessen[below[corner]] ? Lessened : 1.0;
     }
     PlaceInnerCorners(blocks, paths, depths, below);
-    inverted = Inverted(blocks);
+    inverted = InvertedBlocks(blocks);
     if (inverted.size() < fewest)
     {
       fewest = inverted.size();
@@ -164,6 +151,7 @@ DomainBlocks LayeredBlocks(const SegmentDomain& domain, double depth, const Exec
     }
   }
   PlaceInnerCorners(blocks, paths, best, below);
+  UntangleInnerCorners(blocks, domain.Layout, below, best);
   return blocks;
 }
 }

@@ -35,7 +35,9 @@ DomainBlocks CubeBlocks(const SegmentDomain& domain);
  *
  * From each corner a path goes inwards, away from the surface. The inner corner is where the path
  * is `depth` away from the surface, but not deeper than half of what the path reaches. Where a
- * block would be inverted at one of its corners, its depth is lessened, if that helps. depth:
+ * block would be inverted at one of its corners, its depth is lessened and its inner corners are
+ * moved aside, as far as that helps: around a corner of the surface that bends the wrong way, or of
+ * a shape bent too much for its cubes, it need not. depth:
  * in the surface's units; 0 or less: 2.5 times the mean length of a triangle's edge. O(n log n).
  */
 DomainBlocks LayeredBlocks(const SegmentDomain& domain, double depth, const Execution& execution);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Domain/DomainShell.h"
+#include "Domain/InnerCorners.h"
 #include "Domain/InnerPath.h"
 #include "Domain/LayoutCheck.h"
 #include "Domain/TriangleTree.h"
@@ -201,6 +202,29 @@ TEST(DomainLayers, StayInsideOfAThinPlate)
     EXPECT_NEAR(depth, 0.5, 0.1); // half of the way to the middle
   }
   EXPECT_GT(Least(blocks), 0.0);
+}
+
+TEST(DomainLayers, AreUntangledInside)
+{
+  const SegmentDomain box = Voxels(Polycube::FromGrid({ 1, 1, 1 }), 20.0, 10);
+  const DomainBlocks sound = LayeredBlocks(box, 4.0, Execution());
+  const std::vector<Index> corners{ 8, 9, 10, 11, 12, 13, 14, 15 };
+  for (const Point& astray : { Point(15, 15, 15), Point(16.5, 4, 4), Point(4, 9, 17) })
+  {
+    DomainBlocks blocks = sound;
+    blocks.Places[8] = astray; // of the corner (0, 0, 0), inside but beyond others
+    ASSERT_FALSE(InvertedBlocks(blocks).empty());
+    UntangleInnerCorners(blocks, box.Layout, corners, std::vector<double>(8, 4.0));
+    EXPECT_TRUE(InvertedBlocks(blocks).empty());
+    for (const Index corner : corners)
+    {
+      EXPECT_GE(blocks.Places[corner].minCoeff(), 1.6 - 1e-9);
+      EXPECT_LE(blocks.Places[corner].maxCoeff(), 18.4 + 1e-9);
+    }
+  }
+  DomainBlocks same = sound;
+  UntangleInnerCorners(same, box.Layout, corners, std::vector<double>(8, 4.0));
+  EXPECT_EQ(same.Places, sound.Places);
 }
 
 TEST(DomainLayers, TakeTheBoxForAPerfectHexahedron)
