@@ -169,7 +169,9 @@ SegmentDomain DomainAround(const SurfaceMesh& outer, const SegmentDomain& inner,
   {
     const SegmentDomain above = DomainFromCorners(
       outer, inner.Cubes, CornersAbove(outer, inner.Layout), execution.Part(0.7, 1.0));
-    return LeastJacobian(ShellBlocks(above, inner)) > ownQuality ? above : own;
+    // Where neither makes sound blocks, the surface's own domain fits at least the surface.
+    const double least = std::max(ownQuality, 0.0);
+    return LeastJacobian(ShellBlocks(above, inner)) > least ? above : own;
   }
   catch (const std::invalid_argument&) // two corners in one place, or mirrored
   {

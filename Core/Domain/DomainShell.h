@@ -24,8 +24,9 @@ SegmentDomain TurnedToward(const SegmentDomain& domain, const SegmentDomain& oth
 
 /**
  * A domain of one cube for a surface around another whose domain is one cube too: the one found
- * for the surface itself, or that with its corners above those of the inner one, whichever makes
- * the better blocks between the two (the least ScaledJacobian of ShellBlocks). Throws as
+ * for the surface itself, or that with its corners above those of the inner one, if that
+ * makes better blocks between the two, none of them inverted (the least ScaledJacobian of
+ * ShellBlocks). Throws as
  * FindDomain.
  */
 SegmentDomain DomainAround(const SurfaceMesh& outer, const SegmentDomain& inner,
