@@ -62,3 +62,33 @@ SaveScreenshot(os.path.join(folder, "PolycubeDomain.png"), view, ImageResolution
 error = difference("PolycubeDomain", folder, baselines)
 print("picture", error)
 assert error < THRESHOLD, error
+
+# The corners found are where manual mode starts; a state file brings back what was picked.
+inner = SegmentBoundary(Input=labels, UseDensity=0, Segments=[2])
+RenameSource("picked", PolycubeDomain(Input=inner, Segments=[2]))
+picked = FindSource("picked")
+picked.UpdatePipeline()
+picked.UpdatePipelineInformation()
+start = list(picked.GetProperty("StartCorners").GetData())
+assert len(start) == 24
+start[0] += 0.5
+picked.Mode = "Manual"
+picked.CornerPositions = start
+picked.SnapLimit = 0.25
+picked.UpdatePipeline()
+
+
+def state():
+    source = FindSource("picked")
+    source.UpdatePipeline()
+    information = OutputPort(source, 0).GetDataInformation()
+    return (source.Mode, list(source.CornerPositions), list(source.Segments), source.SnapLimit,
+            list(source.NumberOfCubes), information.GetNumberOfCells())
+
+
+before = state()
+assert before[1] == start and before[5] > 1000
+SaveState("domain.pvsm")
+ResetSession()
+LoadState("domain.pvsm")
+assert state() == before, (state(), before)
