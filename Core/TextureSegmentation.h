@@ -33,7 +33,7 @@ struct SegmentationOptions
 {
   int Segments = 0;             ///< 1 to MaximumSegments; 0 chooses 2 to MaximumAutomaticSegments
   TextureOptions Texture;       ///< without attributes: density and gradient only
-  double DensityWeight = 4.0;   ///< against all texture attributes together; 0 leaves it out
+  double DensityWeight = 6.0;   ///< against all texture attributes together; 0 leaves it out
   double GradientWeight = 0.0;  ///< of the magnitude of the density's gradient, likewise
   Index MinimumSegmentSize = 0; ///< voxels of a connected part; 0 is the window's (2 r + 1)^3
   bool KeepAttributes = false;

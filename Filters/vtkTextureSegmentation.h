@@ -130,7 +130,7 @@ public:
   /**
    * Weight of the density against all texture attributes together; it counts as far as the density
    * belongs to regions rather than to the texture. 0 leaves it out. Valid range [0, 100]. Default
-   * is 4.
+   * is 6.
    */
   vtkSetClampMacro(DensityWeight, double, 0.0, 100.0);
   vtkGetMacro(DensityWeight, double);
@@ -228,7 +228,7 @@ private:
   bool AutomaticGreyLevelRange = true;
   double GreyLevelRange[2] = { 0.0, 1.0 };
   int MinimumSegmentSize = 0;
-  double DensityWeight = 4.0;
+  double DensityWeight = 6.0;
   double GradientWeight = 0.0;
   std::vector<std::string> TextureAttributes;
   bool MergeDirections = false;
