@@ -257,38 +257,50 @@ bool AreCubeCharts(const SurfaceMesh& mesh, const std::vector<ChartLabel>& label
 //------------------------------------------------------------------------------
 void KeepLargestPieces(const SurfaceMesh& mesh, std::vector<ChartLabel>& labels)
 {
-  while (true)
+  const Pieces pieces(mesh, labels);
+  std::array<Index, 6> largest;
+  largest.fill(-1);
+  for (std::size_t t = 0; t < labels.size(); ++t)
   {
-    const Pieces pieces(mesh, labels);
-    std::array<Index, 6> largest;
-    largest.fill(-1);
-    for (std::size_t t = 0; t < labels.size(); ++t)
+    Index& best = largest[labels[t]];
+    const Index piece = pieces.OfTriangle[t];
+    best = best < 0 || pieces.Sizes[piece] > pieces.Sizes[best] ? piece : best;
+  }
+  constexpr ChartLabel none = 6;
+  std::vector<Index> front;
+  for (Index t = 0; t < mesh.NumberOfTriangles(); ++t)
+  {
+    if (pieces.OfTriangle[t] == largest[labels[t]])
     {
-      Index& best = largest[labels[t]];
-      const Index piece = pieces.OfTriangle[t];
-      best = best < 0 || pieces.Sizes[piece] > pieces.Sizes[best] ? piece : best;
+      front.push_back(t);
     }
-    const auto isLargest = [&pieces, &largest](const std::vector<ChartLabel>& of, Index t)
-    { return pieces.OfTriangle[t] == largest[of[t]]; };
-    const std::vector<ChartLabel> before = labels;
-    bool changed = false;
-    for (Index t = 0; t < mesh.NumberOfTriangles(); ++t)
+    else
     {
-      for (int k = 0; k < 3 && !isLargest(before, t); ++k)
+      labels[t] = none;
+    }
+  }
+  // From the largest pieces outwards; a triangle between several takes the lowest label.
+  while (!front.empty())
+  {
+    std::vector<Index> next;
+    std::vector<ChartLabel> taken;
+    for (const Index t : front)
+    {
+      for (int k = 0; k < 3; ++k)
       {
-        // Of several neighbours the one of the lowest label.
         const Index other = mesh.Neighbour(t, k);
-        if (isLargest(before, other) && (labels[t] == before[t] || before[other] < labels[t]))
+        if (labels[other] == none)
         {
-          labels[t] = before[other];
-          changed = true;
+          next.push_back(other);
+          taken.push_back(labels[t]);
         }
       }
     }
-    if (!changed)
+    for (std::size_t i = 0; i < next.size(); ++i)
     {
-      return;
+      labels[next[i]] = std::min(labels[next[i]], taken[i]);
     }
+    front = std::move(next);
   }
 }
 }

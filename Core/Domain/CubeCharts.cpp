@@ -5,12 +5,13 @@
 #include "ClosestRotation.h"
 #include "ConformalCylinder.h"
 #include "CylinderCharts.h"
+#include "FarthestPoint.h"
 #include "NormalAxes.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
-#include <queue>
 #include <stdexcept>
 #include <string>
 
@@ -21,6 +22,8 @@ namespace
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+constexpr double Hopeless = 0.04; // charts so much worse than others are not worked on
+constexpr int Turns = 2;          // through a quarter of the circle
 constexpr int CentringRounds = 3;
 constexpr int FrameSmoothing = 4; // rounds
 constexpr double TwoPi = 6.283185307179586;
@@ -98,9 +101,13 @@ private:
     {
       return;
     }
+    const std::vector<CylinderCell> cells = this->CellsOf(this->Cylinder.Map(low, high));
+    const std::vector<std::size_t> order = OrderByHeight(cells);
+    const Vector3d axis = (this->Mesh.Points[high] - this->Mesh.Points[low]).normalized();
     for (const bool bent : { false, true })
     {
-      CubeCharts charts = this->Between(low, high, bent);
+      CubeCharts charts = bent ? this->BentFrames(cells, order) : this->StraightFrames(axis);
+      this->LabelAndRelabel(cells, order, charts);
       const double value = charts.Alignment - (bent ? this->Options.BendingGain : 0.0);
       if (value > this->Most && AreCubeCharts(this->Mesh, charts.Labels))
       {
@@ -199,39 +206,8 @@ private:
     const auto start = std::max_element(points.begin(), points.end(),
       [this](const Vector3d& a, const Vector3d& b)
       { return (a - this->Centre).squaredNorm() < (b - this->Centre).squaredNorm(); });
-    const Index end = this->FarthestFrom(start - points.begin());
-    return { end, this->FarthestFrom(end) };
-  }
-
-  Index FarthestFrom(Index start) const
-  {
-    std::vector<double> way(this->Mesh.Points.size(), std::numeric_limits<double>::infinity());
-    using Entry = std::pair<double, Index>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
-    way[start] = 0.0;
-    front.push({ 0.0, start });
-    Index last = start;
-    while (!front.empty())
-    {
-      const auto [length, p] = front.top();
-      front.pop();
-      if (length > way[p])
-      {
-        continue;
-      }
-      last = p;
-      for (const Index* t = this->Mesh.FanBegin(p); t != this->Mesh.FanEnd(p); ++t)
-      {
-        const Index q = this->Mesh.Triangles[*t][(this->Mesh.CornerOf(*t, p) + 1) % 3];
-        const double sum = length + (this->Mesh.Points[q] - this->Mesh.Points[p]).norm();
-        if (sum < way[q])
-        {
-          way[q] = sum;
-          front.push({ sum, q });
-        }
-      }
-    }
-    return last;
+    const Index end = FarthestPoint(this->Mesh, start - points.begin());
+    return { end, FarthestPoint(this->Mesh, end) };
   }
 
   std::vector<CylinderCell> CellsOf(const CylinderCoordinates& map) const
@@ -252,27 +228,28 @@ private:
     return cells;
   }
 
-  CubeCharts Between(Index low, Index high, bool bent)
+  // Labels, frames and alignment from frames that have the third axis right.
+  void LabelAndRelabel(const std::vector<CylinderCell>& cells,
+    const std::vector<std::size_t>& order, CubeCharts& charts)
   {
-    const std::vector<CylinderCell> cells = this->CellsOf(this->Cylinder.Map(low, high));
-    CubeCharts charts;
-    if (bent)
+    // How the four sides lie around the third axis is tried from several turns.
+    this->TurnFrames(this->AngleOfU(cells, charts), charts);
+    const CubeCharts start = charts;
+    charts.Alignment = -2.0;
+    for (int turn = 0; turn < Turns; ++turn)
     {
-      this->BendFrames(cells, charts);
-    }
-    else
-    {
-      charts.Frames = { Matrix3d::Identity() };
-      charts.Frames[0].row(2) = (this->Mesh.Points[high] - this->Mesh.Points[low]).normalized();
-      charts.Frames[0].row(0) = charts.Frames[0].row(2).unitOrthogonal();
-      charts.Frames[0].row(1) = charts.Frames[0].row(2).cross(charts.Frames[0].row(0));
-      charts.FrameOfTriangle.assign(cells.size(), 0);
-    }
-    this->TurnFrames(cells, charts);
-    for (int round = 0; round < 3; ++round)
-    {
-      charts.Labels = LabelCylinder(cells, this->Areas, this->Rewards(charts));
-      this->Refit(charts);
+      CubeCharts trial = start;
+      this->TurnFrames(0.25 * TwoPi * turn / Turns, trial);
+      for (int round = 0; round < 3; ++round)
+      {
+        trial.Labels = LabelCylinder(cells, order, this->Areas, this->Rewards(trial));
+        this->Refit(trial);
+      }
+      trial.Alignment = this->AlignmentOf(trial);
+      if (trial.Alignment > charts.Alignment)
+      {
+        charts = std::move(trial);
+      }
     }
     KeepLargestPieces(this->Mesh, charts.Labels);
     for (int round = 0; round < 3; ++round)
@@ -280,20 +257,32 @@ private:
       RelabelTowardNormals(
         this->Mesh, this->Rewards(charts), this->Options.Stiffness, charts.Labels, this->Run);
       this->Refit(charts);
+      charts.Alignment = this->AlignmentOf(charts);
+      if (charts.Alignment < this->Most - Hopeless)
+      {
+        return;
+      }
     }
-    charts.Alignment = this->AlignmentOf(charts);
+  }
+
+  CubeCharts StraightFrames(const Vector3d& axis) const
+  {
+    CubeCharts charts;
+    charts.Frames = { Matrix3d::Identity() };
+    charts.Frames[0].row(2) = axis;
+    charts.Frames[0].row(0) = axis.unitOrthogonal();
+    charts.Frames[0].row(1) = axis.cross(axis.unitOrthogonal());
+    charts.FrameOfTriangle.assign(this->Areas.size(), 0);
     return charts;
   }
 
   // Frames along the centres of slabs of equal area between the poles, each turned from the last as
   // little as possible.
-  void BendFrames(const std::vector<CylinderCell>& cells, CubeCharts& charts) const
+  CubeCharts BentFrames(
+    const std::vector<CylinderCell>& cells, const std::vector<std::size_t>& order) const
   {
     const int count = this->Options.BendingSegments;
-    std::vector<std::size_t> order(cells.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(),
-      [&cells](std::size_t a, std::size_t b) { return cells[a].Height < cells[b].Height; });
+    CubeCharts charts;
     charts.FrameOfTriangle.resize(cells.size());
     std::vector<Vector3d> centres(count, Vector3d::Zero());
     std::vector<double> areas(count, 0.0);
@@ -330,11 +319,11 @@ private:
       frame << u.transpose(), w.cross(u).transpose(), w.transpose();
       charts.Frames.push_back(frame);
     }
+    return charts;
   }
 
-  // Turns all frames about their third axes by one angle, so that u is where the sides at angle 0
-  // look.
-  void TurnFrames(const std::vector<CylinderCell>& cells, CubeCharts& charts) const
+  // Where u is on the cylinder: at the angle whose sides look along it.
+  double AngleOfU(const std::vector<CylinderCell>& cells, const CubeCharts& charts) const
   {
     double x = 0.0, y = 0.0;
     for (std::size_t t = 0; t < cells.size(); ++t)
@@ -345,8 +334,13 @@ private:
       x += c * n[0] + s * n[1];
       y += c * n[1] - s * n[0];
     }
-    const Matrix3d turn =
-      Eigen::AngleAxisd(-std::atan2(y, x), Vector3d::UnitZ()).toRotationMatrix();
+    return std::atan2(y, x);
+  }
+
+  // All frames about their third axes by one angle.
+  static void TurnFrames(double angle, CubeCharts& charts)
+  {
+    const Matrix3d turn = Eigen::AngleAxisd(-angle, Vector3d::UnitZ()).toRotationMatrix();
     for (Matrix3d& frame : charts.Frames)
     {
       frame = turn * frame;

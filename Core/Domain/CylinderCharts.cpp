@@ -95,15 +95,22 @@ std::array<ChartLabel, Bins> LabelTurn(
 }
 
 //------------------------------------------------------------------------------
-std::vector<ChartLabel> LabelCylinder(const std::vector<CylinderCell>& cells,
-  const std::vector<double>& areas, const std::vector<std::array<double, 6>>& rewards)
+std::vector<std::size_t> OrderByHeight(const std::vector<CylinderCell>& cells)
 {
-  const std::array<ChartLabel, Bins> turn = LabelTurn(cells, rewards);
-  std::vector<ChartLabel> labels(cells.size());
   std::vector<std::size_t> order(cells.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
     [&cells](std::size_t a, std::size_t b) { return cells[a].Height < cells[b].Height; });
+  return order;
+}
+
+//------------------------------------------------------------------------------
+std::vector<ChartLabel> LabelCylinder(const std::vector<CylinderCell>& cells,
+  const std::vector<std::size_t>& order, const std::vector<double>& areas,
+  const std::vector<std::array<double, 6>>& rewards)
+{
+  const std::array<ChartLabel, Bins> turn = LabelTurn(cells, rewards);
+  std::vector<ChartLabel> labels(cells.size());
   for (std::size_t t = 0; t < cells.size(); ++t)
   {
     labels[t] = turn[BinOf(cells[t].Angle)];

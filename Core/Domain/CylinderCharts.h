@@ -18,10 +18,15 @@ struct CylinderCell
 /**
  * Labels (2 axis + side) with the largest sum of rewards among the two caps cut off at one height
  * each and the four sides between four angles, in the order +u, +v, -u, -v anticlockwise. A cap has
- * between 2 and 40 % of the area, a side at least a 32nd of the turn. O(n log n).
+ * between 2 and 40 % of the area, a side at least a 32nd of the turn. `order`: the cells by height.
+ * O(n).
  */
 std::vector<ChartLabel> LabelCylinder(const std::vector<CylinderCell>& cells,
-  const std::vector<double>& areas, const std::vector<std::array<double, 6>>& rewards);
+  const std::vector<std::size_t>& order, const std::vector<double>& areas,
+  const std::vector<std::array<double, 6>>& rewards);
+
+/// The numbers of the cells, lowest first. O(n log n).
+std::vector<std::size_t> OrderByHeight(const std::vector<CylinderCell>& cells);
 }
 
 #endif

@@ -20,6 +20,7 @@ namespace
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+constexpr int MostRefinement = 2;
 constexpr double StretchInEdges = 3.0; // so far chart borders are straightened
 
 double MeanEdgeLength(const SurfaceMesh& mesh)
@@ -166,6 +167,35 @@ void RefuseInvalid(const std::vector<std::string>& messages)
   }
 }
 
+// Triangle t becomes 4 t to 4 t + 3; points keep their numbers.
+SurfaceMesh CutInFour(const SurfaceMesh& mesh)
+{
+  std::vector<Vector3d> points = mesh.Points;
+  std::vector<std::array<Index, 3>> middles(mesh.Triangles.size());
+  std::vector<Triangle> triangles;
+  for (Index t = 0; t < mesh.NumberOfTriangles(); ++t)
+  {
+    const Triangle& c = mesh.Triangles[t];
+    for (int k = 0; k < 3; ++k)
+    {
+      const Index across = mesh.Neighbour(t, k);
+      if (across > t)
+      {
+        middles[t][k] = static_cast<Index>(points.size());
+        points.push_back(0.5 * (mesh.Points[c[k]] + mesh.Points[c[(k + 1) % 3]]));
+      }
+      else
+      {
+        middles[t][k] = middles[across][mesh.CornerOf(across, c[(k + 1) % 3])];
+      }
+    }
+    const std::array<Index, 3>& m = middles[t];
+    triangles.insert(triangles.end(),
+      { { c[0], m[0], m[2] }, { c[1], m[1], m[0] }, { c[2], m[2], m[1] }, { m[0], m[1], m[2] } });
+  }
+  return SurfaceMesh(std::move(points), std::move(triangles));
+}
+
 // Candidates, and the best of them.
 class Search
 {
@@ -174,6 +204,7 @@ public:
     : Mesh(mesh)
     , Options(options)
     , Run(execution)
+    , IsSphere(mesh.EulerCharacteristic() == 2)
   {
   }
 
@@ -195,7 +226,10 @@ public:
         reasons += std::string(" ") + error.what();
       }
     };
-    attempt([this]() { this->TryCubeAndChain(); });
+    for (int level = 0; this->IsSphere && level <= MostRefinement && !this->Found; ++level)
+    {
+      attempt([this, level]() { this->TryCubeAndChain(level); });
+    }
     attempt([this]() { this->TryFlatPolycube(); });
     if (!this->Found)
     {
@@ -226,18 +260,33 @@ private:
     }
   }
 
-  void TryCubeAndChain()
+  // On the surface itself or, where its triangles are too few for six charts, on one with each of
+  // them cut in four, `level` times.
+  void TryCubeAndChain(int level)
   {
+    SurfaceMesh refined = this->Mesh;
+    for (int i = 0; i < level; ++i)
+    {
+      refined = CutInFour(refined);
+    }
     const CubeCharts charts =
-      FindCubeCharts(this->Mesh, this->Options.Charts, this->Run.Part(0.0, 0.6));
-    const SurfaceLayout layout = LayoutFromCharts(this->Mesh, charts.Labels,
-      this->Run.Part(0.6, 0.7), StretchInEdges * MeanEdgeLength(this->Mesh));
+      FindCubeCharts(refined, this->Options.Charts, this->Run.Part(0.0, 0.6));
+    const SurfaceLayout layout = LayoutFromCharts(
+      refined, charts.Labels, this->Run.Part(0.6, 0.7), StretchInEdges * MeanEdgeLength(refined));
+    const auto offer = [this, level](SegmentDomain domain)
+    {
+      for (Index& origin : domain.Layout.Origins)
+      {
+        origin >>= 2 * level;
+      }
+      this->Offer(std::move(domain));
+    };
     std::vector<LatticePoint> corners;
     RefuseInvalid(CheckCharts(layout, &corners));
     SegmentDomain cube{ {}, Chain(0, 1), {}, 0.0 };
     cube.Layout = InOrderOf(cube.Cubes, layout, corners);
     this->Finish(cube, charts);
-    this->Offer(cube);
+    offer(cube);
 
     const auto [axis, length] = Longest(cube.Layout);
     const Index cubes = std::min<Index>(std::lround(length), this->Options.MostCubes);
@@ -247,7 +296,7 @@ private:
                              cube.Layout, axis, static_cast<int>(cubes), this->Run.Part(0.7, 0.75)),
         Chain(axis, static_cast<int>(cubes)), {}, 0.0 };
       this->Finish(chain, charts);
-      this->Offer(std::move(chain));
+      offer(std::move(chain));
     }
   }
 
@@ -303,6 +352,7 @@ private:
   const SurfaceMesh& Mesh;
   const DomainOptions& Options;
   const Execution& Run;
+  const bool IsSphere;
   std::unique_ptr<SegmentDomain> Found;
 };
 }
