@@ -172,7 +172,7 @@ public:
   /**
    * In automatic mode, how much alignment (the area-weighted mean of the cosine between normals
    * and the directions of the patches) one more corner must bring. 0: as many cubes as align best;
-   * 1: one cube wherever one will do. Valid range [0, 1]. Default is 0.01.
+   * 1: one cube wherever one will do. Valid range [0, 1]. Default is 0.0015.
    */
   vtkSetClampMacro(CornerCost, double, 0.0, 1.0);
   vtkGetMacro(CornerCost, double);
@@ -241,7 +241,7 @@ private:
   std::vector<int> SwitchedOffCubes;
   std::vector<double> CornerPositions;
   double SnapLimit = 0.1;
-  double CornerCost = 0.01;
+  double CornerCost = 0.0015;
   int MostCubes = 64;
   bool Layered = true;
   double LayerDepth = 0.0;
