@@ -21,9 +21,10 @@ def cells(port, name):
                         .GetArray(name))
 
 
-# An egg in an egg.
+# An egg in an egg, with three different axes.
 image = Wavelet(WholeExtent=[-20, 20, -16, 16, -16, 16])
-radius = "sqrt(coordsX * coordsX * (0.6 + 0.01 * coordsX) + coordsY * coordsY + coordsZ * coordsZ)"
+radius = ("sqrt(coordsX * coordsX * (0.6 + 0.01 * coordsX) + coordsY * coordsY"
+          " + 1.5 * coordsZ * coordsZ)")
 labels = Calculator(Input=image, ResultArrayName="Segment",
                     Function=f"if({radius} < 6.5, 2, if({radius} < 12.2, 1, 0))")
 surface = SegmentBoundary(Input=labels, UseDensity=0)
