@@ -51,7 +51,8 @@
  *   and on the right, seen from outside.
  *
  * @par Cost
- * A surface of 1e5 triangles: about a second for each segment. Memory: about 1 kB a triangle.
+ * A surface of 1e5 triangles: some seconds for each segment. The corners found are kept, so that
+ * corners picked from there take less.
  *
  * @par Distributed data
  * Under several processes the pieces are gathered to process 0 with a warning; it gives the same
