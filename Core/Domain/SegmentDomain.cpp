@@ -5,6 +5,7 @@
 #include "ChainLayout.h"
 #include "ClosestRotation.h"
 #include "FlatPolycube.h"
+#include "HandleLoop.h"
 #include "LayoutCheck.h"
 
 #include <algorithm>
@@ -233,12 +234,26 @@ public:
     attempt([this]() { this->TryFlatPolycube(); });
     if (!this->Found)
     {
-      throw std::runtime_error("No domain was found for the surface." + reasons);
+      throw std::runtime_error("No domain was found for the surface." + this->Handles() + reasons);
     }
     return std::move(*this->Found);
   }
 
 private:
+  std::string Handles() const
+  {
+    if (this->IsSphere)
+    {
+      return "";
+    }
+    const HandleLoop handle = FindHandle(this->Mesh);
+    const auto text = [](double x) { return std::to_string(x); };
+    return " It has " + std::to_string(1 - this->Mesh.EulerCharacteristic() / 2) +
+           " handle(s); a loop around one, " + text(handle.Length) + " long, passes (" +
+           text(handle.Place.x()) + ", " + text(handle.Place.y()) + ", " + text(handle.Place.z()) +
+           "). Cut or close handles first.";
+  }
+
   double Value(const SegmentDomain& domain) const
   {
     return domain.Alignment - this->Options.CornerCost * double(domain.Cubes.NumberOfCorners);

@@ -35,8 +35,13 @@ struct SegmentDomain
 
 /**
  * The domain with the largest alignment less the cost of its corners. CheckLayout finds nothing in
- * it. Throws std::invalid_argument for a surface of several pieces, std::runtime_error with the
- * reason where no domain can be laid out.
+ * it. Tried are one cube, a chain of cubes cut from it where it is long, and on a surface with flat
+ * parts (FlatPolycube.h) their polycube, the only one that may have handles. A surface with too few
+ * triangles is cut finer.
+ *
+ * Throws std::invalid_argument for a surface of several pieces, std::runtime_error with the reasons
+ * (and the place of a handle) where no domain can be laid out. O(n log n) beside one sparse
+ * Cholesky factorisation.
  */
 SegmentDomain FindDomain(
   const SurfaceMesh& mesh, const DomainOptions& options, const Execution& execution);

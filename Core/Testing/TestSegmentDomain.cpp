@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Domain/ChainLayout.h"
+#include "Domain/HandleLoop.h"
 #include "Domain/LayoutCheck.h"
 #include "Domain/SegmentDomain.h"
 #include "LayoutSurfaces.h"
@@ -434,7 +435,17 @@ TEST(SegmentDomain, RefusesWhatHasNoDomain)
   catch (const std::runtime_error& error)
   {
     EXPECT_NE(std::string(error.what()).find("8 cubes"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("1 handle(s)"), std::string::npos) << error.what();
   }
+}
+
+// Around a bar of the frame and around its hole: four faces each.
+TEST(HandleLoop, FindsTheShortest)
+{
+  const SurfaceMesh frame = SurfaceOf(VoxelSolids()[4].Cubes, 6);
+  EXPECT_NEAR(FindHandle(frame).Length, 4.0, 1e-9);
+  EXPECT_NEAR(FindHandle(Turned(Shuffled(frame, 7), 7)).Length, 4.0, 1e-9);
+  EXPECT_EQ(FindHandle(Icosphere(3)).Length, 0.0);
 }
 
 // Three low u charts and no high one: every chart is a disc with at least four neighbours of other
