@@ -85,15 +85,21 @@ FrameEnergy EnergyOf(const FrameStar& star, bool jumps)
   return energy;
 }
 
-// Beyond the best place: the rotation from here to there times a factor, at most 90 degrees.
+// Beyond the best place: the rotation from here to there times about a factor; from 90 degrees on
+// no farther than it goes itself.
 Quaterniond Relax(const Quaterniond& rotation, double factor)
 {
-  const Eigen::AngleAxisd turn(rotation.w() < 0.0 ? Quaterniond(-rotation.coeffs()) : rotation);
-  const double angle = std::min(factor * turn.angle(), std::max(turn.angle(), std::acos(0.0)));
-  return Quaterniond(Eigen::AngleAxisd(angle, turn.axis()));
+  const double sign = rotation.w() < 0.0 ? -1.0 : 1.0, w = sign * rotation.w();
+  if (w < std::sqrt(0.5))
+  {
+    return rotation;
+  }
+  return Quaterniond(1.0 + factor * (w - 1.0), sign * factor * rotation.x(),
+    sign * factor * rotation.y(), sign * factor * rotation.z());
 }
 
-// One colour: [begin, end) of the voxels. Returns the energy before.
+// One colour: [begin, end) of the voxels. Returns the energy before where it is the red one, whose
+// neighbours make up all pairs.
 FrameEnergy HalfSweep(const FrameLevel& level, const SmoothingOptions& options, double factor,
   Index begin, Index end, FrameList& frames, const Execution& execution)
 {
@@ -107,7 +113,7 @@ FrameEnergy HalfSweep(const FrameLevel& level, const SmoothingOptions& options, 
                                                                       : MeanRotation(star);
       const Quaterniond turned = Relax(rotation, factor) * frames[v].cast<double>();
       frames[v] = turned.normalized().cast<float>();
-      return EnergyOf(star, jumps);
+      return begin == 0 ? EnergyOf(star, jumps) : FrameEnergy();
     });
   const auto first = std::lower_bound(level.Bounds.begin(), level.Bounds.end(), begin,
     [](const FrameBound& bound, Index voxel) { return bound.Voxel < voxel; });
