@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <iterator>
 #include <limits>
 
 namespace trivariate
@@ -243,6 +244,26 @@ void ChangeSheets(Field& field, std::uint8_t value, Index largest, Index& sheets
   }
 }
 
+// What is left of a cavity when its own handles are cut, which fills their sheets.
+std::vector<Index> CutHandles(const Field& field, const std::vector<Index>& cavity,
+  const TopologyOptions& options, TopologyChanges& changes, const Execution& execution)
+{
+  Field hollow = field;
+  for (std::uint8_t& voxel : hollow.Object)
+  {
+    voxel = voxel == Field::Rim ? Field::Rim : 0;
+  }
+  for (const Index at : cavity)
+  {
+    hollow.Object[at] = 1;
+  }
+  ChangeSheets(hollow, 1, options.LargestSheet, changes.Closed, changes.ClosedVoxels, execution);
+  std::vector<Index> left;
+  std::copy_if(cavity.begin(), cavity.end(), std::back_inserter(left),
+    [&hollow](Index at) { return hollow.Object[at] == 1; });
+  return left;
+}
+
 // Vertices - edges + faces - cells of the closed voxels.
 Index Euler(const Field& field)
 {
@@ -311,7 +332,8 @@ TopologyChanges MakeSegmentWhole(std::vector<std::uint8_t>& mask, const std::arr
     }
     else
     {
-      hollow.insert(hollow.end(), part.begin(), part.end());
+      const std::vector<Index> whole = CutHandles(field, part, options, changes, execution);
+      hollow.insert(hollow.end(), whole.begin(), whole.end());
     }
     for (const Index at : part)
     {

@@ -184,6 +184,20 @@ TEST(SegmentTopology, FillsCavitiesUpToTheLimitAndKeepsTheLargestPiece)
   EXPECT_EQ(changes.EulerCharacteristic, 1);
 }
 
+TEST(SegmentTopology, CutsTheHandlesOfACavityThatStays)
+{
+  const auto inTorus = [](double x, double y, double z)
+  { return std::hypot(std::hypot(x - 17, y - 17) - 7, z - 17) <= 2.5; };
+  Solid solid({ 35, 35, 35 }, [&](double x, double y, double z)
+    { return InBall(x, y, z, 17, 17, 17, 15) && !inTorus(x, y, z); });
+  EXPECT_EQ(solid.Euler(), 1) << "a handle of the cavity hides the cavity";
+  TopologyOptions options;
+  options.LargestCavity = 10;
+  const Index before = solid.Count();
+  EXPECT_EQ(solid.MakeWhole(options).EulerCharacteristic, 2);
+  EXPECT_LE(solid.Count() - before, 30) << "one sheet across the torus";
+}
+
 TEST(SegmentTopology, MakesNoiseWhole)
 {
   for (unsigned seed = 0; seed < 12; ++seed)
