@@ -26,9 +26,9 @@ FrameEnergy& operator+=(FrameEnergy& sum, const FrameEnergy& term)
   return sum;
 }
 
-// The sum of visit(voxel) over [begin, end).
+// The sum of visit(first, last) over the blocks of voxels in [begin, end).
 template <typename Visit>
-FrameEnergy VisitVoxels(Index begin, Index end, const Execution& execution, const Visit& visit)
+FrameEnergy VisitBlocks(Index begin, Index end, const Execution& execution, const Visit& visit)
 {
   FrameEnergy sum;
   for (Index row = begin; row < end; row += BlockSize * BlocksInARow)
@@ -41,10 +41,7 @@ FrameEnergy VisitVoxels(Index begin, Index end, const Execution& execution, cons
         for (Index block = from; block < to; ++block)
         {
           const Index first = row + block * BlockSize;
-          for (Index v = first; v < std::min(last, first + BlockSize); ++v)
-          {
-            partial[block] += visit(v);
-          }
+          partial[block] = visit(first, std::min(last, first + BlockSize));
         }
       });
     for (const FrameEnergy& term : partial)
@@ -98,30 +95,51 @@ Quaterniond Relax(const Quaterniond& rotation, double factor)
     sign * factor * rotation.y(), sign * factor * rotation.z());
 }
 
+Quaterniond BestRotation(const SmoothingOptions& options, const FrameStar& star)
+{
+  if (options.Step == FrameStep::Quartic)
+  {
+    return QuarticRotation(star);
+  }
+  return options.Jumps ? RegistrationRotation(star) : MeanRotation(star);
+}
+
 // One colour: [begin, end) of the voxels. Returns the energy before where it is the red one, whose
 // neighbours make up all pairs.
 FrameEnergy HalfSweep(const FrameLevel& level, const SmoothingOptions& options, double factor,
   Index begin, Index end, FrameList& frames, const Execution& execution)
 {
-  const bool jumps = options.Jumps;
-  const FrameEnergy before = VisitVoxels(begin, end, execution,
-    [&](Index v)
+  return VisitBlocks(begin, end, execution,
+    [&](Index first, Index last)
     {
-      const FrameStar star = Gather(level.Voxels, frames, v);
-      const Quaterniond rotation = options.Step == FrameStep::Quartic ? QuarticRotation(star)
-                                   : jumps                            ? RegistrationRotation(star)
-                                                                      : MeanRotation(star);
-      const Quaterniond turned = Relax(rotation, factor) * frames[v].cast<double>();
-      frames[v] = turned.normalized().cast<float>();
-      return begin == 0 ? EnergyOf(star, jumps) : FrameEnergy();
+      FrameEnergy before;
+      auto bound = std::lower_bound(level.Bounds.begin(), level.Bounds.end(), first,
+        [](const FrameBound& b, Index voxel) { return b.Voxel < voxel; });
+      for (Index v = first; v < last; ++v)
+      {
+        const FrameStar star = Gather(level.Voxels, frames, v);
+        if (begin == 0)
+        {
+          before += EnergyOf(star, options.Jumps);
+        }
+        const Quaterniond own = frames[v].cast<double>();
+        const bool isBound = bound != level.Bounds.end() && bound->Voxel == v;
+        Quaterniond rotation = BestRotation(options, star);
+        if (isBound)
+        {
+          // What lies beyond is sought among the frames that fit the constraint, too.
+          rotation = bound->Apply(rotation * own) * own.conjugate();
+        }
+        Quaterniond next = (Relax(rotation, factor) * own).normalized();
+        if (isBound)
+        {
+          next = bound->Apply(next);
+          ++bound;
+        }
+        frames[v] = next.cast<float>();
+      }
+      return before;
     });
-  const auto first = std::lower_bound(level.Bounds.begin(), level.Bounds.end(), begin,
-    [](const FrameBound& bound, Index voxel) { return bound.Voxel < voxel; });
-  for (auto bound = first; bound != level.Bounds.end() && bound->Voxel < end; ++bound)
-  {
-    frames[bound->Voxel] = bound->Apply(frames[bound->Voxel].cast<double>()).cast<float>();
-  }
-  return before;
 }
 }
 
@@ -139,8 +157,16 @@ FrameEnergy MeasureFrames(
   const FrameLevel& level, const FrameList& frames, bool jumps, const Execution& execution)
 {
   // Each pair has one red voxel.
-  return VisitVoxels(0, level.Voxels.Red, execution,
-    [&](Index v) { return EnergyOf(Gather(level.Voxels, frames, v), jumps); });
+  return VisitBlocks(0, level.Voxels.Red, execution,
+    [&](Index first, Index last)
+    {
+      FrameEnergy energy;
+      for (Index v = first; v < last; ++v)
+      {
+        energy += EnergyOf(Gather(level.Voxels, frames, v), jumps);
+      }
+      return energy;
+    });
 }
 
 //------------------------------------------------------------------------------
