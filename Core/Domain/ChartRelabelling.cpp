@@ -296,11 +296,15 @@ void KeepLargestPieces(const SurfaceMesh& mesh, std::vector<ChartLabel>& labels)
         }
       }
     }
+    front.clear();
     for (std::size_t i = 0; i < next.size(); ++i)
     {
+      if (labels[next[i]] == none)
+      {
+        front.push_back(next[i]);
+      }
       labels[next[i]] = std::min(labels[next[i]], taken[i]);
     }
-    front = std::move(next);
   }
 }
 }
