@@ -7,6 +7,7 @@
 #include "SMPExecution.h"
 #include "SegmentDomains.h"
 #include "SegmentSurface.h"
+#include "SharedPieces.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"
@@ -234,22 +235,12 @@ int vtkPolycubeDomain::FillOutputPortInformation(int port, vtkInformation* info)
 }
 
 //------------------------------------------------------------------------------
-// Whether every process was asked for its share.
-bool vtkPolycubeDomain::IsGathering(vtkInformationVector* outputVector)
-{
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  vtkInformation* info = outputVector->GetInformationObject(0);
-  return this->Controller && this->Controller->GetNumberOfProcesses() > 1 &&
-         info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) == this->Controller->GetNumberOfProcesses();
-}
-
-//------------------------------------------------------------------------------
 int vtkPolycubeDomain::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   vtkInformation* outInfo = outputVector->GetInformationObject(0);
-  const bool gathering = this->IsGathering(outputVector);
+  const bool gathering = ArePiecesShared(this->Controller, outputVector);
   for (int port = 0; port < 2; ++port)
   {
     if (inputVector[port]->GetNumberOfInformationObjects() > 0)
@@ -271,7 +262,7 @@ int vtkPolycubeDomain::RequestData(
 {
   vtkPolyData* input = vtkPolyData::GetData(inputVector[0]);
   vtkPointSet* points = vtkPointSet::GetData(inputVector[1]);
-  const bool gathering = this->IsGathering(outputVector);
+  const bool gathering = ArePiecesShared(this->Controller, outputVector);
   const int piece = outputVector->GetInformationObject(0)->Get(
     vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
   if (!gathering && piece > 0)

@@ -233,7 +233,6 @@ private:
   vtkPolycubeDomain(const vtkPolycubeDomain&) = delete;
   void operator=(const vtkPolycubeDomain&) = delete;
 
-  bool IsGathering(vtkInformationVector* outputVector);
   void MakeDomains(vtkPolyData* surface, vtkPolyData* corners, vtkInformationVector* outputVector);
 
   std::vector<int> Segments;

@@ -6,6 +6,7 @@
 #include "LabelledImage.h"
 #include "SMPExecution.h"
 #include "SegmentBoundary.h"
+#include "SharedPieces.h"
 
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
@@ -68,16 +69,6 @@ int vtkSegmentBoundary::FillInputPortInformation(int, vtkInformation* info)
 }
 
 //------------------------------------------------------------------------------
-// Whether every process was asked for its share of one surface.
-bool vtkSegmentBoundary::IsGathering(vtkInformationVector* outputVector)
-{
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  vtkInformation* info = outputVector->GetInformationObject(0);
-  return this->Controller && this->Controller->GetNumberOfProcesses() > 1 &&
-         info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) == this->Controller->GetNumberOfProcesses();
-}
-
-//------------------------------------------------------------------------------
 // The array of SetInputArrayToProcess(1, ...), or the first one fit for it; null if there is none
 // or none is wanted.
 vtkDataArray* vtkSegmentBoundary::DensityArray(vtkImageData* image, vtkDataArray* labels)
@@ -126,11 +117,9 @@ int vtkSegmentBoundary::RequestUpdateExtent(
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   vtkInformation* inInfo = inputVector[0]->GetInformationObject(0);
   inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-  if (!this->IsGathering(outputVector))
+  if (!ArePiecesShared(this->Controller, outputVector))
   {
-    inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
-    inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-    inInfo->Set(Pipeline::UPDATE_EXTENT(), inInfo->Get(Pipeline::WHOLE_EXTENT()), 6);
+    RequestWholeImage(inInfo);
   }
   return 1;
 }
@@ -141,7 +130,7 @@ int vtkSegmentBoundary::RequestData(
 {
   vtkImageData* input = vtkImageData::GetData(inputVector[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
-  const bool gathering = this->IsGathering(outputVector);
+  const bool gathering = ArePiecesShared(this->Controller, outputVector);
   const int piece = outputVector->GetInformationObject(0)->Get(
     vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
   if (!gathering && piece > 0)

@@ -136,7 +136,6 @@ private:
   vtkSegmentBoundary(const vtkSegmentBoundary&) = delete;
   void operator=(const vtkSegmentBoundary&) = delete;
 
-  bool IsGathering(vtkInformationVector* outputVector);
   vtkDataArray* DensityArray(vtkImageData* image, vtkDataArray* labels);
 
   std::vector<int> Segments;

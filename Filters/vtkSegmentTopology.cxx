@@ -5,6 +5,7 @@
 #include "Domain/WholeSegments.h"
 #include "LabelledImage.h"
 #include "SMPExecution.h"
+#include "SharedPieces.h"
 
 #include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
@@ -16,7 +17,6 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
 #include <new>
@@ -31,8 +31,6 @@ vtkCxxSetObjectMacro(vtkSegmentTopology, Controller, vtkMultiProcessController);
 
 namespace
 {
-using Pipeline = vtkStreamingDemandDrivenPipeline;
-
 //------------------------------------------------------------------------------
 // The chosen segments, or all but 0 from the highest on.
 std::vector<std::int32_t> ChooseSegments(
@@ -146,24 +144,12 @@ int vtkSegmentTopology::GetSegment(int i) const
 }
 
 //------------------------------------------------------------------------------
-// Whether every process was asked for its piece of one image.
-bool vtkSegmentTopology::IsGathering(vtkInformationVector* outputVector)
-{
-  return this->Controller && this->Controller->GetNumberOfProcesses() > 1 &&
-         outputVector->GetInformationObject(0)->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) ==
-           this->Controller->GetNumberOfProcesses();
-}
-
-//------------------------------------------------------------------------------
 int vtkSegmentTopology::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  if (!this->IsGathering(outputVector))
+  if (!ArePiecesShared(this->Controller, outputVector))
   {
-    vtkInformation* inInfo = inputVector[0]->GetInformationObject(0);
-    inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
-    inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-    inInfo->Set(Pipeline::UPDATE_EXTENT(), inInfo->Get(Pipeline::WHOLE_EXTENT()), 6);
+    RequestWholeImage(inputVector[0]->GetInformationObject(0));
   }
   return 1;
 }
@@ -174,7 +160,7 @@ int vtkSegmentTopology::RequestData(
 {
   vtkImageData* input = vtkImageData::GetData(inputVector[0]);
   vtkImageData* output = vtkImageData::GetData(outputVector);
-  const bool gathering = this->IsGathering(outputVector);
+  const bool gathering = ArePiecesShared(this->Controller, outputVector);
   LabelledImage image;
   std::string fault, name;
   try
@@ -212,6 +198,11 @@ int vtkSegmentTopology::RequestData(
       }
       catch (const Aborted&)
       {
+        image = LabelledImage();
+      }
+      catch (const std::bad_alloc&)
+      {
+        fault = "Out of memory; crop or coarsen the image.";
         image = LabelledImage();
       }
       catch (const std::exception& error)

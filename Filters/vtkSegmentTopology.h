@@ -112,7 +112,6 @@ private:
   vtkSegmentTopology(const vtkSegmentTopology&) = delete;
   void operator=(const vtkSegmentTopology&) = delete;
 
-  bool IsGathering(vtkInformationVector* outputVector);
   std::vector<trivariate::SegmentChanges> MakeWhole(
     trivariate::LabelledImage& image, bool gathered);
   void Share(trivariate::LabelledImage& image);

@@ -5,6 +5,7 @@
 #include "Fit.h"
 #include "GatherSamples.h"
 #include "SMPExecution.h"
+#include "SharedPieces.h"
 #include "TSplineGrid.h"
 
 #include "vtkDataObject.h"
@@ -134,16 +135,6 @@ int vtkTSplineFit::FillOutputPortInformation(int port, vtkInformation* info)
 }
 
 //------------------------------------------------------------------------------
-// Whether every process was asked for its share of one fit.
-bool vtkTSplineFit::IsGathering(vtkInformationVector* outputVector)
-{
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  vtkInformation* info = outputVector->GetInformationObject(0);
-  return this->Controller && this->Controller->GetNumberOfProcesses() > 1 &&
-         info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) == this->Controller->GetNumberOfProcesses();
-}
-
-//------------------------------------------------------------------------------
 // The array of SetInputArrayToProcess(0, ...); the active scalars as long as nothing was chosen,
 // which a proxy says with an empty name.
 vtkDataArray* vtkTSplineFit::ChosenArray(vtkImageData* image)
@@ -160,11 +151,9 @@ int vtkTSplineFit::RequestUpdateExtent(
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   vtkInformation* inInfo = inputVector[0]->GetInformationObject(0);
   inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-  if (!this->IsGathering(outputVector))
+  if (!ArePiecesShared(this->Controller, outputVector))
   {
-    inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
-    inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-    inInfo->Set(Pipeline::UPDATE_EXTENT(), inInfo->Get(Pipeline::WHOLE_EXTENT()), 6);
+    RequestWholeImage(inInfo);
   }
   return 1;
 }
@@ -176,7 +165,7 @@ int vtkTSplineFit::RequestData(
   vtkImageData* input = vtkImageData::GetData(inputVector[0]);
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector, 0);
   vtkTable* rounds = vtkTable::GetData(outputVector, 1);
-  const bool gathering = this->IsGathering(outputVector);
+  const bool gathering = ArePiecesShared(this->Controller, outputVector);
   const int piece = outputVector->GetInformationObject(0)->Get(
     vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
   if (!gathering && piece > 0)

@@ -168,7 +168,6 @@ private:
   vtkTSplineFit(const vtkTSplineFit&) = delete;
   void operator=(const vtkTSplineFit&) = delete;
 
-  bool IsGathering(vtkInformationVector* outputVector);
   vtkDataArray* ChosenArray(vtkImageData* image);
 
   int RefinementRule = COMPACT;

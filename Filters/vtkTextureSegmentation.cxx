@@ -4,6 +4,7 @@
 
 #include "SMPExecution.h"
 #include "SegmentationInput.h"
+#include "SharedPieces.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkExtentTranslator.h"
@@ -197,15 +198,6 @@ const char* vtkTextureSegmentation::GetTextureAttribute(int i) const
                                                             : nullptr;
 }
 
-//------------------------------------------------------------------------------
-// Whether every process was asked for its piece of one image.
-bool vtkTextureSegmentation::IsDistributed(vtkInformationVector* outputVector)
-{
-  vtkInformation* info = outputVector->GetInformationObject(0);
-  return this->Controller && this->Controller->GetNumberOfProcesses() > 1 &&
-         info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) == this->Controller->GetNumberOfProcesses();
-}
-
 // The array of SetInputArrayToProcess(0, ...); the active scalars as long as nothing was chosen,
 // which a proxy says with an empty name.
 vtkDataArray* vtkTextureSegmentation::ChosenArray(vtkImageData* image)
@@ -259,7 +251,7 @@ int vtkTextureSegmentation::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkInformation* inInfo = inputVector[0]->GetInformationObject(0);
-  if (this->IsDistributed(outputVector))
+  if (ArePiecesShared(this->Controller, outputVector))
   {
     SegmentationOptions options;
     options.Texture.Radius = this->WindowRadius;
@@ -269,10 +261,7 @@ int vtkTextureSegmentation::RequestUpdateExtent(
   }
   else
   {
-    inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
-    inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-    inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-    inInfo->Set(Pipeline::UPDATE_EXTENT(), inInfo->Get(Pipeline::WHOLE_EXTENT()), 6);
+    RequestWholeImage(inInfo);
   }
   return 1;
 }
@@ -284,7 +273,7 @@ int vtkTextureSegmentation::RequestData(
   vtkInformation* inInfo = inputVector[0]->GetInformationObject(0);
   vtkImageData* input = vtkImageData::GetData(inputVector[0]);
   vtkImageData* output = vtkImageData::GetData(outputVector);
-  const bool distributed = this->IsDistributed(outputVector);
+  const bool distributed = ArePiecesShared(this->Controller, outputVector);
   const GatherBytes gather = GatherBytesOf(distributed ? this->Controller : nullptr);
   const int process = distributed ? this->Controller->GetLocalProcessId() : 0;
 

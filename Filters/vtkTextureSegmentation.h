@@ -218,7 +218,6 @@ private:
   vtkTextureSegmentation(const vtkTextureSegmentation&) = delete;
   void operator=(const vtkTextureSegmentation&) = delete;
 
-  bool IsDistributed(vtkInformationVector* outputVector);
   vtkDataArray* ChosenArray(vtkImageData* image);
   trivariate::SegmentationOptions Options() const;
 
