@@ -10,7 +10,7 @@
 #ifndef trivariate_Execution_h
 #define trivariate_Execution_h
 
-#include "TSpline.h"
+#include "TSpline/TSpline.h"
 
 #include <exception>
 #include <functional>

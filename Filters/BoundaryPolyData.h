@@ -4,7 +4,7 @@
 #ifndef BoundaryPolyData_h
 #define BoundaryPolyData_h
 
-#include "SegmentBoundary.h"
+#include "Boundary/SegmentBoundary.h"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FieldSampler.h"
 
-#include "InverseJacobian.h"
+#include "TSpline/InverseJacobian.h"
 
 #include "vtkPointData.h"
 #include "vtkPoints.h"

@@ -11,10 +11,10 @@
 #ifndef FieldSampler_h
 #define FieldSampler_h
 
-#include "BezierMesh.h"
-#include "Evaluator.h"
+#include "TSpline/BezierMesh.h"
+#include "TSpline/Evaluator.h"
 #include "Execution.h"
-#include "TSplineModel.h"
+#include "TSpline/TSplineModel.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkSmartPointer.h"

@@ -6,8 +6,8 @@
 #ifndef ImageSamples_h
 #define ImageSamples_h
 
-#include "Fit.h"
-#include "TSplineModel.h"
+#include "Fit/Fit.h"
+#include "TSpline/TSplineModel.h"
 
 #include <array>
 #include <cstdint>

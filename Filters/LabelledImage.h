@@ -6,7 +6,7 @@
 #ifndef LabelledImage_h
 #define LabelledImage_h
 
-#include "BoundaryNet.h"
+#include "Boundary/BoundaryNet.h"
 
 #include <array>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SegmentationInput.h"
 
-#include "GreyLevels.h"
+#include "Texture/GreyLevels.h"
 #include "MemoryLimit.h"
 
 #include "vtkArrayDispatch.h"

@@ -4,7 +4,7 @@
 #ifndef SegmentationInput_h
 #define SegmentationInput_h
 
-#include "TextureSegmentation.h"
+#include "Texture/TextureSegmentation.h"
 
 #include <array>
 #include <string>

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TSplineCells.h"
 
-#include "BezierExtraction.h"
-#include "BisectionMesh.h"
+#include "TSpline/BezierExtraction.h"
+#include "TSpline/BisectionMesh.h"
 #include "MemoryLimit.h"
-#include "Tessellation.h"
+#include "TSpline/Tessellation.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

@@ -20,7 +20,7 @@
 #ifndef TSplineGrid_h
 #define TSplineGrid_h
 
-#include "TSplineModel.h"
+#include "TSpline/TSplineModel.h"
 #include "vtkTrivariateFiltersModule.h" // for export macro
 
 class vtkPointSet;

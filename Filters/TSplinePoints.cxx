@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TSplinePoints.h"
 
-#include "BezierExtraction.h"
-#include "InverseJacobian.h"
-#include "InverseMap.h"
+#include "TSpline/BezierExtraction.h"
+#include "TSpline/InverseJacobian.h"
+#include "TSpline/InverseMap.h"
 #include "MemoryLimit.h"
 
 #include "vtkBoundingBox.h"

@@ -5,7 +5,7 @@
 #include "BoundaryPolyData.h"
 #include "LabelledImage.h"
 #include "SMPExecution.h"
-#include "SegmentBoundary.h"
+#include "Boundary/SegmentBoundary.h"
 #include "SharedPieces.h"
 
 #include "vtkDataObject.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTSplineFit.h"
 
-#include "Fit.h"
+#include "Fit/Fit.h"
 #include "GatherSamples.h"
 #include "SMPExecution.h"
 #include "SharedPieces.h"

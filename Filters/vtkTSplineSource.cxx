@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTSplineSource.h"
 
-#include "BezierMesh.h"
+#include "TSpline/BezierMesh.h"
 #include "SMPExecution.h"
 #include "TSplineCells.h"
 #include "TSplineGrid.h"

@@ -15,7 +15,7 @@
 #define trivariate_TSplineFileReader_h
 
 #include "Execution.h"
-#include "TSplineModel.h"
+#include "TSpline/TSplineModel.h"
 
 #include <cstddef>
 #include <string>

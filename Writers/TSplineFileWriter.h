@@ -7,7 +7,7 @@
 #define trivariate_TSplineFileWriter_h
 
 #include "Execution.h"
-#include "TSplineModel.h"
+#include "TSpline/TSplineModel.h"
 
 #include <string>
 #include <vector>

@@ -6,7 +6,7 @@
 #ifndef trivariate_Polycube_h
 #define trivariate_Polycube_h
 
-#include "TSpline.h"
+#include "TSpline/TSpline.h"
 
 #include <array>
 #include <string>

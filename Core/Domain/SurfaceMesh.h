@@ -6,7 +6,7 @@
 #ifndef trivariate_SurfaceMesh_h
 #define trivariate_SurfaceMesh_h
 
-#include "TSpline.h"
+#include "TSpline/TSpline.h"
 
 #include <Eigen/Core>
 

@@ -4,7 +4,7 @@
 #ifndef trivariate_GridVolumes_h
 #define trivariate_GridVolumes_h
 
-#include "Fit.h"
+#include "Fit/Fit.h"
 #include "RandomRefinement.h"
 
 #include <algorithm>

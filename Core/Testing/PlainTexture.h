@@ -4,8 +4,8 @@
 #ifndef trivariate_PlainTexture_h
 #define trivariate_PlainTexture_h
 
-#include "TextureAttributes.h"
-#include "TextureWindow.h"
+#include "Texture/TextureAttributes.h"
+#include "Texture/TextureWindow.h"
 
 #include <algorithm>
 #include <cmath>

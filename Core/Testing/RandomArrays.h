@@ -4,7 +4,7 @@
 #ifndef trivariate_RandomArrays_h
 #define trivariate_RandomArrays_h
 
-#include "BandedOperator.h"
+#include "Fit/BandedOperator.h"
 
 #include <random>
 

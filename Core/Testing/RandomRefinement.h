@@ -4,7 +4,7 @@
 #ifndef trivariate_RandomRefinement_h
 #define trivariate_RandomRefinement_h
 
-#include "RefinementRule.h"
+#include "TSpline/RefinementRule.h"
 
 #include <array>
 #include <cmath>

@@ -4,7 +4,7 @@
 #ifndef trivariate_Rank_h
 #define trivariate_Rank_h
 
-#include "TSpline.h"
+#include "TSpline/TSpline.h"
 
 #include <Eigen/Dense>
 

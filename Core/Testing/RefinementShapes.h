@@ -4,7 +4,7 @@
 #ifndef trivariate_RefinementShapes_h
 #define trivariate_RefinementShapes_h
 
-#include "RefinementRule.h"
+#include "TSpline/RefinementRule.h"
 
 #include <array>
 #include <vector>

@@ -6,7 +6,7 @@
 
 #include "Domain/Polycube.h"
 #include "LayoutSurfaces.h"
-#include "SegmentBoundary.h"
+#include "Boundary/SegmentBoundary.h"
 
 #include <Eigen/Geometry>
 

@@ -4,7 +4,7 @@
 #ifndef trivariate_SegmentVolumes_h
 #define trivariate_SegmentVolumes_h
 
-#include "BoundaryNet.h"
+#include "Boundary/BoundaryNet.h"
 
 #include <array>
 #include <cmath>

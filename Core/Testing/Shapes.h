@@ -4,8 +4,8 @@
 #ifndef trivariate_Shapes_h
 #define trivariate_Shapes_h
 
-#include "Evaluator.h"
-#include "TSpline.h"
+#include "TSpline/Evaluator.h"
+#include "TSpline/TSpline.h"
 
 #include <array>
 #include <cmath>

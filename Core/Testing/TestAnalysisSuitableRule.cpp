@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "AnalysisSuitableRule.h"
-#include "DualCompatibility.h"
+#include "TSpline/AnalysisSuitableRule.h"
+#include "TSpline/DualCompatibility.h"
 #include "RandomRefinement.h"
 #include "Rank.h"
 #include "RefinementShapes.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BSpline.h"
+#include "TSpline/BSpline.h"
 
 #include <gtest/gtest.h>
 

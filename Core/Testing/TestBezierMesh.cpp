@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierExtraction.h"
-#include "BezierMesh.h"
+#include "TSpline/BezierExtraction.h"
+#include "TSpline/BezierMesh.h"
 #include "RandomRefinement.h"
 #include "ThreadedExecution.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BisectionMesh.h"
+#include "TSpline/BisectionMesh.h"
 #include "RandomRefinement.h"
 
 #include <gtest/gtest.h>

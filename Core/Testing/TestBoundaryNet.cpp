@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BoundaryNet.h"
+#include "Boundary/BoundaryNet.h"
 #include "SegmentVolumes.h"
 #include "ThreadedExecution.h"
-#include "TriangleIntersections.h"
+#include "Boundary/TriangleIntersections.h"
 
 #include <gtest/gtest.h>
 

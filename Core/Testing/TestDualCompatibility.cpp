@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "DualCompatibility.h"
+#include "TSpline/DualCompatibility.h"
 #include "RandomRefinement.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
 // What the gridded fit reaches, checked at the voxels by plain sums.
-#include "DualCompatibility.h"
-#include "Fit.h"
+#include "TSpline/DualCompatibility.h"
+#include "Fit/Fit.h"
 #include "GridVolumes.h"
 #include "Rank.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
 // How the gridded fit takes its input, its threads and being stopped.
-#include "Fit.h"
+#include "Fit/Fit.h"
 #include "GridVolumes.h"
 #include "ThreadedExecution.h"
 

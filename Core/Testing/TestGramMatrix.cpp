@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
 // The normal equations and their solver against dense matrices.
-#include "GramMatrix.h"
+#include "Fit/GramMatrix.h"
 #include "RandomRefinement.h"
 #include "ThreadedExecution.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Residual, gradient, errors and gains of splits against plain sums over the voxels.
-#include "GridFitSystem.h"
+#include "Fit/GridFitSystem.h"
 #include "GridVolumes.h"
 
 #include <gtest/gtest.h>

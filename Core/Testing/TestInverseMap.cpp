@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "InverseMap.h"
+#include "TSpline/InverseMap.h"
 #include "RandomRefinement.h"
 #include "Shapes.h"
 #include "ThreadedExecution.h"

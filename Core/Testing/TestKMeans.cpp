@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "KMeans.h"
+#include "Texture/KMeans.h"
 #include "ThreadedExecution.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "KnotFaces.h"
+#include "TSpline/KnotFaces.h"
 #include "RandomRefinement.h"
 #include "RefinementShapes.h"
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "LabelComponents.h"
+#include "Texture/LabelComponents.h"
 
-#include "InterfacePlacement.h"
-#include "KMeans.h"
-#include "SegmentShells.h"
+#include "Texture/InterfacePlacement.h"
+#include "Texture/KMeans.h"
+#include "Boundary/SegmentShells.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "LinearIndependence.h"
+#include "TSpline/LinearIndependence.h"
 #include "RandomRefinement.h"
 #include "Rank.h"
 

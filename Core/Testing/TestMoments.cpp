@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
 // DyadicAxis and MomentPyramid against plain sums.
-#include "FunctionTable.h"
-#include "MomentPyramid.h"
+#include "Fit/FunctionTable.h"
+#include "Fit/MomentPyramid.h"
 #include "RandomArrays.h"
 #include "RandomRefinement.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SegmentBoundary.h"
+#include "Boundary/SegmentBoundary.h"
 #include "SegmentVolumes.h"
 #include "ThreadedExecution.h"
 

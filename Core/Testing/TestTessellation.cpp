@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RandomRefinement.h"
-#include "Tessellation.h"
+#include "TSpline/Tessellation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PlainTexture.h"
-#include "TextureAttributes.h"
+#include "Texture/TextureAttributes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PlainTexture.h"
-#include "TextureWindow.h"
+#include "Texture/TextureWindow.h"
 #include "ThreadedExecution.h"
 
 #include <gtest/gtest.h>

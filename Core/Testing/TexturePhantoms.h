@@ -4,10 +4,10 @@
 #ifndef trivariate_TexturePhantoms_h
 #define trivariate_TexturePhantoms_h
 
-#include "TextureSegmentation.h"
+#include "Texture/TextureSegmentation.h"
 
-#include "GreyLevels.h"
-#include "KMeans.h"
+#include "Texture/GreyLevels.h"
+#include "Texture/KMeans.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #ifndef RandomTSplineModel_h
 #define RandomTSplineModel_h
 
-#include "TSplineModel.h"
+#include "TSpline/TSplineModel.h"
 
 #include <algorithm>
 #include <limits>

@@ -4,9 +4,9 @@
 #ifndef SplineModels_h
 #define SplineModels_h
 
-#include "RefinementRule.h"
+#include "TSpline/RefinementRule.h"
 #include "TSplineGrid.h"
-#include "TSplineModel.h"
+#include "TSpline/TSplineModel.h"
 
 #include "vtkNew.h"
 #include "vtkPointData.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BisectionMesh.h"
-#include "Evaluator.h"
+#include "TSpline/BisectionMesh.h"
+#include "TSpline/Evaluator.h"
 #include "SplineModels.h"
 
 #include "vtkCellData.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Evaluator.h"
+#include "TSpline/Evaluator.h"
 #include "SplineModels.h"
 
 #include "vtkImageData.h"

@@ -4,10 +4,10 @@
 // Evaluation on one thread: adaptive fits of a 128^3 volume beside the uniform tensor-product fit
 // with as many control points. Items are cells for Cells and Extract, otherwise points.
 #include "BenchmarkSplines.h"
-#include "BezierExtraction.h"
-#include "BezierMesh.h"
-#include "Evaluator.h"
-#include "InverseMap.h"
+#include "TSpline/BezierExtraction.h"
+#include "TSpline/BezierMesh.h"
+#include "TSpline/Evaluator.h"
+#include "TSpline/InverseMap.h"
 
 #include <benchmark/benchmark.h>
 

@@ -7,7 +7,7 @@
 // processor time; "times_one_thread" how many times faster than on one thread, by the clock on the
 // wall.
 #include "BenchmarkRun.h"
-#include "TextureWindow.h"
+#include "Texture/TextureWindow.h"
 
 #include <benchmark/benchmark.h>
 

@@ -4,7 +4,7 @@
 #ifndef BenchmarkSplines_h
 #define BenchmarkSplines_h
 
-#include "Fit.h"
+#include "Fit/Fit.h"
 #include "HydrogenOrbital.h"
 
 #include <map>

@@ -3,9 +3,9 @@
 #include "Fit.h"
 
 #include "GridFitSystem.h"
-#include "LinearIndependence.h"
+#include "TSpline/LinearIndependence.h"
 #include "RefinementMarks.h"
-#include "RefinementRule.h"
+#include "TSpline/RefinementRule.h"
 #include "UniformFit.h"
 
 #include <algorithm>

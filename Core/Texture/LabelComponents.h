@@ -4,7 +4,7 @@
 #ifndef trivariate_LabelComponents_h
 #define trivariate_LabelComponents_h
 
-#include "TSpline.h"
+#include "TSpline/TSpline.h"
 
 #include <array>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GramMatrix.h"
 
-#include "SupportTree.h"
+#include "TSpline/SupportTree.h"
 
 #include <algorithm>
 #include <cmath>

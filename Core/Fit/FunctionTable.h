@@ -8,7 +8,7 @@
 #ifndef trivariate_FunctionTable_h
 #define trivariate_FunctionTable_h
 
-#include "BlendingFunctionMap.h"
+#include "TSpline/BlendingFunctionMap.h"
 #include "MomentPyramid.h"
 
 namespace trivariate

@@ -5,7 +5,7 @@
 #include "InterfacePlacement.h"
 #include "PieceVolume.h"
 #include "SegmentAttributes.h"
-#include "SegmentShells.h"
+#include "Boundary/SegmentShells.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,8 +11,8 @@
 #ifndef trivariate_SegmentShells_h
 #define trivariate_SegmentShells_h
 
-#include "KMeans.h"
-#include "LabelComponents.h"
+#include "Texture/KMeans.h"
+#include "Texture/LabelComponents.h"
 
 namespace trivariate
 {

@@ -11,7 +11,7 @@
 #define trivariate_Fit_h
 
 #include "Execution.h"
-#include "TSpline.h"
+#include "TSpline/TSpline.h"
 
 #include <array>
 #include <cstdint>

@@ -5,7 +5,7 @@
 #define trivariate_RefinementMarks_h
 
 #include "GridFitSystem.h"
-#include "RefinementRule.h"
+#include "TSpline/RefinementRule.h"
 
 namespace trivariate
 {

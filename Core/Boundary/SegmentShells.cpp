@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SegmentShells.h"
 
-#include "InterfacePlacement.h"
+#include "Texture/InterfacePlacement.h"
 
 #include <algorithm>
 

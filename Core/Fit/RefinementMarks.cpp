@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefinementMarks.h"
 
-#include "BlendingFunctionMap.h"
+#include "TSpline/BlendingFunctionMap.h"
 
 #include <algorithm>
 

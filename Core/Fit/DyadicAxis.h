@@ -11,7 +11,7 @@
 #define trivariate_DyadicAxis_h
 
 #include "BandedOperator.h"
-#include "TSpline.h"
+#include "TSpline/TSpline.h"
 
 namespace trivariate
 {

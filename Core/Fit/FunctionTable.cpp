@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FunctionTable.h"
 
-#include "RefinementRule.h"
+#include "TSpline/RefinementRule.h"
 
 #include <algorithm>
 #include <cmath>

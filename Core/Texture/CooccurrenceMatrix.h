@@ -7,7 +7,7 @@
 #ifndef trivariate_CooccurrenceMatrix_h
 #define trivariate_CooccurrenceMatrix_h
 
-#include "TSpline.h"
+#include "TSpline/TSpline.h"
 
 #include <array>
 #include <cstdint>
