@@ -3,7 +3,7 @@
 #include "vtkTSplineReader.h"
 
 #include "SMPExecution.h"
-#include "TSplineFileReader.h"
+#include "File/TSplineFileReader.h"
 #include "TSplineGrid.h"
 
 #include "vtkErrorCode.h"

@@ -4,7 +4,7 @@
 
 #include "AtomicFile.h"
 #include "SMPExecution.h"
-#include "TSplineFileWriter.h"
+#include "File/TSplineFileWriter.h"
 #include "TSplineGrid.h"
 
 #include "vtkAppendFilter.h"

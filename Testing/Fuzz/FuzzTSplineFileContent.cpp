@@ -4,9 +4,9 @@
 //
 // Changed bytes of a file seldom get past HDF5's checksums, so this target lets HDF5 write the
 // file: any of its objects may be missing, a link, or of another type, shape, storage or value.
-#include "Hdf5.h"
-#include "TSplineFileFormat.h"
-#include "TSplineFileReader.h"
+#include "File/Hdf5.h"
+#include "File/TSplineFileFormat.h"
+#include "File/TSplineFileReader.h"
 
 #include <fuzzer/FuzzedDataProvider.h>
 #include <unistd.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Whatever the bytes: a sound model or one exception, within the memory allowed.
-#include "TSplineFileReader.h"
+#include "File/TSplineFileReader.h"
 
 #include <cstdint>
 #include <cstdlib>
