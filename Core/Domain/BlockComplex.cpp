@@ -80,7 +80,7 @@ BlockComplex::BlockComplex(std::vector<std::array<Index, 8>> blocks, std::vector
   }
   this->FindTwins();
   this->Arrange(places);
-  this->SplitGluedGroups(places);
+  this->SplitGroups(places);
 }
 
 //------------------------------------------------------------------------------
@@ -199,10 +199,10 @@ void BlockComplex::Arrange(const std::vector<LatticePoint>& places)
 }
 
 //------------------------------------------------------------------------------
-void BlockComplex::SplitGluedGroups(const std::vector<LatticePoint>& places)
+void BlockComplex::SplitGroups(const std::vector<LatticePoint>& places)
 {
   std::map<int, Index> sizes;
-  std::set<int> glued;
+  std::set<int> split;
   int next = 0;
   for (Index b = 0; b < this->Size(); ++b)
   {
@@ -212,23 +212,30 @@ void BlockComplex::SplitGluedGroups(const std::vector<LatticePoint>& places)
     {
       if (this->IsGlued({ b, f / 2, f % 2 }))
       {
-        glued.insert(this->Groups[b]);
+        split.insert(this->Groups[b]);
       }
     }
   }
-  bool isSplit = false;
-  for (int& group : this->Groups)
+  for (const auto& [group, box] : this->GroupBoxes())
   {
-    if (glued.count(group) && sizes[group] > 1)
+    Index volume = 1;
+    for (int a = 0; a < 3; ++a)
     {
-      group = next++;
-      isSplit = true;
+      volume *= box.second[a] - box.first[a];
+    }
+    if (sizes[group] < volume)
+    {
+      split.insert(group);
     }
   }
-  if (isSplit)
+  for (int& group : this->Groups)
   {
-    this->Arrange(places);
+    if (split.count(group) && sizes[group] > 1)
+    {
+      group = next++;
+    }
   }
+  this->Arrange(places);
 }
 
 //------------------------------------------------------------------------------
@@ -268,8 +275,14 @@ Index BlockComplex::BlockAt(const std::array<double, 3>& parameter) const
 }
 
 //------------------------------------------------------------------------------
-std::pair<LatticePoint, LatticePoint> BlockComplex::Bounds() const
+LatticePoint BlockComplex::Extent() const
 {
-  return BoxesOf(std::vector<int>(this->Origins.size(), 0), this->Origins).at(0);
+  return BoxesOf(std::vector<int>(this->Origins.size(), 0), this->Origins).at(0).second;
+}
+
+//------------------------------------------------------------------------------
+std::map<int, std::pair<LatticePoint, LatticePoint>> BlockComplex::GroupBoxes() const
+{
+  return BoxesOf(this->Groups, this->Origins);
 }
 }

@@ -61,9 +61,10 @@ public:
    * `blocks`: points of each in VTK's order of a hexahedron, its axes u, v, w; faces with the same
    * four points are glued. `places`: the low corner of each block in the lattice of its group.
    *
-   * A group of several blocks of which a face is glued other than in its lattice cannot be C2
-   * across its own faces and match that neighbour too: its blocks become groups of their own, with
-   * numbers from the largest on.
+   * The blocks of a group become groups of their own, with numbers from the largest on, where a
+   * face is glued other than in its lattice (the spline cannot be C2 across the group's own faces
+   * and match that neighbour too), and where they do not fill a box (a function across the step
+   * would reach out of the domain).
    *
    * Throws std::invalid_argument, naming the block: lists of different lengths or empty; two blocks
    * of a group at one place, or neighbours there that do not have a face in common; blocks of one
@@ -96,8 +97,11 @@ public:
   /// The points of a face at (s, t) = (0, 0), (1, 0), (0, 1), (1, 1).
   std::array<Index, 4> FacePoints(const BlockFace& face) const;
 
-  /// The low and the high end of the boxes of all groups.
-  std::pair<LatticePoint, LatticePoint> Bounds() const;
+  /// The high end of the boxes of all groups; the low end is the origin.
+  LatticePoint Extent() const;
+
+  /// The low and the high end of the box of each group, which its blocks fill.
+  std::map<int, std::pair<LatticePoint, LatticePoint>> GroupBoxes() const;
 
   std::vector<std::array<Index, 8>> Blocks; ///< points of each
   std::vector<int> Segments;                ///< of each block
@@ -108,7 +112,7 @@ public:
 
 private:
   void FindTwins();
-  void SplitGluedGroups(const std::vector<LatticePoint>& places);
+  void SplitGroups(const std::vector<LatticePoint>& places);
   void Arrange(const std::vector<LatticePoint>& places);
 
   std::vector<std::array<FaceTwin, 6>> Twins; // [2 axis + side]

@@ -53,12 +53,11 @@ inline Point RandomPoint(const TSpline& spline, std::mt19937& random)
   return x;
 }
 
-/// Wishes for new knots in functions whose support holds one random point, so that rounds of them
-/// make steeply graded meshes. Wishes that leave no room for a knot are skipped.
+/// Wishes for new knots in functions whose support holds the point x. Wishes that leave no room for
+/// a knot are skipped.
 inline std::vector<RefinementMark> RandomMarks(
-  const TSpline& spline, int count, std::mt19937& random)
+  const TSpline& spline, const Point& x, int count, std::mt19937& random)
 {
-  const Point x = RandomPoint(spline, random);
   std::vector<Index> near;
   for (Index i = 0; i < spline.Size(); ++i)
   {
@@ -87,6 +86,13 @@ inline std::vector<RefinementMark> RandomMarks(
     }
   }
   return marks;
+}
+
+/// The same at one random point, so that rounds of them make steeply graded meshes.
+inline std::vector<RefinementMark> RandomMarks(
+  const TSpline& spline, int count, std::mt19937& random)
+{
+  return RandomMarks(spline, RandomPoint(spline, random), count, random);
 }
 
 /// Value of blending function i.

@@ -92,14 +92,14 @@ std::string Refusal(const std::vector<std::array<Index, 8>>& blocks, const std::
 
 TEST(BlockComplex, JoinsCubesOfOneGroup)
 {
-  const BlockComplex shape = CubesComplex({ { 2, -1, 0 }, { 3, -1, 0 }, { 2, 0, 0 } });
+  const BlockComplex shape = CubesComplex({ { 2, -1, 0 }, { 3, -1, 0 }, { 2, 0, 0 }, { 3, 0, 0 } });
   ExpectTwinsToMatch(shape);
   ExpectGroupsApart(shape);
-  EXPECT_EQ(CountFaces(shape, &BlockComplex::IsJoined), 4);
+  EXPECT_EQ(CountFaces(shape, &BlockComplex::IsJoined), 8);
   EXPECT_EQ(CountFaces(shape, &BlockComplex::IsGlued), 0);
   EXPECT_EQ(shape.Origins[1], (LatticePoint{ 1, 0, 0 }));
-  EXPECT_EQ(shape.Bounds().second, (LatticePoint{ 2, 2, 1 }));
-  EXPECT_EQ(shape.BlockAt({ 1.5, 1.5, 0.5 }), -1);
+  EXPECT_EQ(shape.Extent(), (LatticePoint{ 2, 2, 1 }));
+  EXPECT_EQ(shape.BlockAt({ 1.5, 2.5, 0.5 }), -1);
   EXPECT_EQ(shape.BlockAt({ 2.0, 1.0, 1.0 }), 1);
 }
 
@@ -113,7 +113,7 @@ TEST(BlockComplex, SetsGroupsApartAndGluesThem)
   // The core has 6 glued faces, every layer 5: one inwards, 4 beside it.
   EXPECT_EQ(CountFaces(ball, &BlockComplex::IsGlued), 6 + 6 * 5);
   // Seven boxes in an arrangement of 2 x 2 x 2.
-  EXPECT_EQ(ball.Bounds().second, (LatticePoint{ 3, 3, 3 }));
+  EXPECT_EQ(ball.Extent(), (LatticePoint{ 3, 3, 3 }));
 }
 
 TEST(BlockComplex, FindsAllTurnsOfAFace)
@@ -161,6 +161,15 @@ TEST(BlockComplex, SplitsGroupsThatOthersTouch)
   const BlockComplex shape(cubes.CubePoints, { 0, 0, 1 }, { 4, 4, 2 }, cubes.Cubes);
   EXPECT_EQ(shape.Groups, (std::vector<int>{ 5, 6, 2 }));
   EXPECT_EQ(CountFaces(shape, &BlockComplex::IsJoined), 0);
+  EXPECT_EQ(CountFaces(shape, &BlockComplex::IsGlued), 4);
+  ExpectTwinsToMatch(shape);
+  ExpectGroupsApart(shape);
+}
+
+TEST(BlockComplex, SplitsGroupsThatFillNoBox)
+{
+  const BlockComplex shape = CubesComplex({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } });
+  EXPECT_EQ(shape.Groups, (std::vector<int>{ 1, 2, 3 }));
   EXPECT_EQ(CountFaces(shape, &BlockComplex::IsGlued), 4);
   ExpectTwinsToMatch(shape);
   ExpectGroupsApart(shape);

@@ -1,0 +1,318 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BlockSpline.h"
+
+#include "TSpline/BlendingFunctionMap.h"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+namespace trivariate
+{
+namespace
+{
+LocalKnots Reversed(const LocalKnots& k, std::int32_t one)
+{
+  return { one - k[4], one - k[3], one - k[2], one - k[1], one - k[0] };
+}
+
+// The knot lines of the traces on a face: bit 0 of unit square (s, t) says that its low side in
+// direction s is on one, bit 1 the same of t.
+class TraceMesh
+{
+public:
+  explicit TraceMesh(std::int32_t one)
+    : One(one)
+    , Bits(static_cast<std::size_t>(one) * one, 0)
+  {
+  }
+
+  void Insert(const std::array<LocalKnots, 2>& trace)
+  {
+    for (int d = 0; d < 2; ++d)
+    {
+      for (const std::int32_t knot : trace[d])
+      {
+        for (std::int32_t q = trace[1 - d][0]; knot < this->One && q < trace[1 - d][4]; ++q)
+        {
+          this->At(d, knot, q) |= static_cast<std::uint8_t>(1 << d);
+        }
+      }
+    }
+  }
+
+  // A line that crosses the trace in direction d and is no knot of it; -1: none.
+  std::int32_t FindCrossing(const std::array<LocalKnots, 2>& trace, int d)
+  {
+    const LocalKnots &k = trace[d], &across = trace[1 - d];
+    for (std::int32_t knot = k[0] + 1; knot < k[4]; ++knot)
+    {
+      bool crosses = std::find(k.begin(), k.end(), knot) == k.end();
+      for (std::int32_t q = across[0]; crosses && q < across[4]; ++q)
+      {
+        crosses = (this->At(d, knot, q) >> d & 1) != 0;
+      }
+      if (crosses)
+      {
+        return knot;
+      }
+    }
+    return -1;
+  }
+
+private:
+  std::uint8_t& At(int d, std::int32_t knot, std::int32_t q)
+  {
+    return d == 0 ? this->Bits[static_cast<std::size_t>(q) * this->One + knot]
+                  : this->Bits[static_cast<std::size_t>(knot) * this->One + q];
+  }
+
+  std::int32_t One;
+  std::vector<std::uint8_t> Bits;
+};
+
+class BlockRule : public RefinementRule
+{
+public:
+  BlockRule(const BlockSpline& layout, std::unique_ptr<RefinementRule> inner)
+    : Layout(&layout)
+    , Inner(std::move(inner))
+  {
+  }
+
+  std::unique_ptr<RefinementRule> Clone() const override
+  {
+    return std::make_unique<BlockRule>(*this->Layout, this->Inner->Clone());
+  }
+
+  void Refine(TSpline& spline, const std::vector<RefinementMark>& marks) override
+  {
+    std::vector<RefinementMark> wanted = marks;
+    do
+    {
+      this->Inner->Refine(spline, wanted);
+      wanted = this->Layout->CrossedTraces(spline);
+    } while (!wanted.empty());
+    const SharedPoints shared = this->Layout->Share(spline);
+    for (Index i = 0; i < spline.Size(); ++i)
+    {
+      const Index first = shared.FirstOf[shared.PointOf[i]];
+      spline.Weights[i] = spline.Weights[first];
+      std::copy_n(spline.ControlPoint(first), spline.Components, spline.ControlPoint(i));
+    }
+  }
+
+private:
+  const BlockSpline* Layout;
+  std::unique_ptr<RefinementRule> Inner;
+};
+}
+
+//------------------------------------------------------------------------------
+BlockSpline::BlockSpline(const BlockComplex& complex, int depth)
+  : Complex(&complex)
+  , Levels(depth)
+  , One(std::int32_t(1) << depth)
+  , Size(complex.Extent())
+  , BlockOfBox(static_cast<std::size_t>(Index(Size[0]) * Size[1] * Size[2]), -1)
+{
+  for (Index b = 0; b < complex.Size(); ++b)
+  {
+    const LatticePoint& o = complex.Origins[b];
+    this->BlockOfBox[o[0] + Index(this->Size[0]) * (o[1] + Index(this->Size[1]) * o[2])] = b;
+  }
+}
+
+//------------------------------------------------------------------------------
+TSpline BlockSpline::MakeCoarsest(int cells, int attributes) const
+{
+  if (cells < 1 || (cells & (cells - 1)) != 0 || cells > this->One)
+  {
+    throw std::invalid_argument("A block of " + std::to_string(this->One) +
+                                " knot intervals cannot have " + std::to_string(cells) + " cells.");
+  }
+  TSpline spline;
+  for (int a = 0; a < 3; ++a)
+  {
+    spline.KnotLines[a] = MakeUniformKnotLine(0.0, this->Size[a], this->Size[a] * this->One);
+  }
+  for (const auto& entry : this->Complex->GroupBoxes())
+  {
+    const auto& [low, high] = entry.second;
+    std::array<KnotLine, 3> lines;
+    for (int a = 0; a < 3; ++a)
+    {
+      lines[a] = MakeUniformKnotLine(low[a], high[a], (high[a] - low[a]) * this->One);
+    }
+    const int stride = this->One / cells;
+    for (BlendingFunction f : MakeTensorProduct(lines, { stride, stride, stride }, 0).Functions)
+    {
+      for (int a = 0; a < 3; ++a)
+      {
+        for (std::int32_t& knot : f[a])
+        {
+          knot += low[a] * this->One;
+        }
+      }
+      spline.Functions.push_back(f);
+    }
+  }
+  spline.Components = 3 + attributes;
+  spline.Weights.assign(spline.Functions.size(), 1.0);
+  spline.ControlPoints.assign(spline.Functions.size() * spline.Components, 0.0);
+  return spline;
+}
+
+//------------------------------------------------------------------------------
+Index BlockSpline::BlockOf(const BlendingFunction& f) const
+{
+  const auto box = [this, &f](int a) { return Index(f[a][0] / this->One); };
+  return this->BlockOfBox[box(0) + this->Size[0] * (box(1) + this->Size[1] * box(2))];
+}
+
+//------------------------------------------------------------------------------
+BlockSpline::Trace BlockSpline::TraceOf(
+  const BlendingFunction& f, Index block, int axis, int side) const
+{
+  const LatticePoint& origin = this->Complex->Origins[block];
+  const std::int32_t end = (origin[axis] + side) * this->One;
+  Trace trace;
+  if (f[axis][side ? 1 : 3] != end)
+  {
+    return trace;
+  }
+  const BlockFace face{ block, axis, side };
+  if (!this->Complex->IsGlued(face))
+  {
+    return trace;
+  }
+  const FaceTwin& twin = this->Complex->Twin(face);
+  const std::array<int, 2> axes = TangentialAxes(axis);
+  for (int d = 0; d < 2; ++d)
+  {
+    for (int k = 0; k < 5; ++k)
+    {
+      trace.Knots[d][k] = f[axes[d]][k] - origin[axes[d]] * this->One;
+    }
+  }
+  const Index own = 6 * block + 2 * axis + side;
+  const Index other = 6 * twin.Face.Block + 2 * twin.Face.Axis + twin.Face.Side;
+  trace.Face = std::min(own, other);
+  if (other < own)
+  {
+    if (twin.Swapped)
+    {
+      std::swap(trace.Knots[0], trace.Knots[1]);
+    }
+    for (int d = 0; d < 2; ++d)
+    {
+      trace.Knots[d] = twin.Flipped[d] ? Reversed(trace.Knots[d], this->One) : trace.Knots[d];
+    }
+  }
+  return trace;
+}
+
+//------------------------------------------------------------------------------
+template <typename Visit>
+void BlockSpline::VisitTraces(const TSpline& spline, const Visit& visit) const
+{
+  for (Index i = 0; i < spline.Size(); ++i)
+  {
+    const BlendingFunction& f = spline.Functions[i];
+    const Index block = this->BlockOf(f);
+    for (int face = 0; face < 6; ++face)
+    {
+      const Trace trace = this->TraceOf(f, block, face / 2, face % 2);
+      if (trace.Face >= 0)
+      {
+        visit(i, BlockFace{ block, face / 2, face % 2 }, trace);
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+SharedPoints BlockSpline::Share(const TSpline& spline) const
+{
+  // A forest in which every function points to one with a smaller number, roots to themselves.
+  std::vector<Index> parent(spline.Functions.size());
+  std::iota(parent.begin(), parent.end(), Index(0));
+  const auto root = [&parent](Index i)
+  {
+    while (parent[i] != i)
+    {
+      i = parent[i] = parent[parent[i]];
+    }
+    return i;
+  };
+  BlendingFunctionMap functionOf;
+  this->VisitTraces(spline,
+    [&](Index i, const BlockFace&, const Trace& trace)
+    {
+      const auto face = static_cast<std::int32_t>(trace.Face);
+      const Index other =
+        functionOf.Insert({ trace.Knots[0], trace.Knots[1], { face, face, face, face, face } }, i)
+          .first;
+      const Index a = root(i), b = root(other);
+      parent[std::max(a, b)] = std::min(a, b);
+    });
+  SharedPoints shared;
+  shared.PointOf.resize(spline.Functions.size());
+  for (Index i = 0; i < spline.Size(); ++i)
+  {
+    const Index first = root(i);
+    if (first == i)
+    {
+      shared.PointOf[i] = shared.Count();
+      shared.FirstOf.push_back(i);
+    }
+    shared.PointOf[i] = shared.PointOf[first];
+  }
+  return shared;
+}
+
+//------------------------------------------------------------------------------
+std::vector<RefinementMark> BlockSpline::CrossedTraces(const TSpline& spline) const
+{
+  std::map<Index, TraceMesh> meshes;
+  this->VisitTraces(spline, [&](Index, const BlockFace&, const Trace& trace)
+    { meshes.try_emplace(trace.Face, this->One).first->second.Insert(trace.Knots); });
+  std::vector<RefinementMark> marks;
+  this->VisitTraces(spline,
+    [&](Index i, const BlockFace& face, const Trace& trace)
+    {
+      for (int d = 0; d < 2; ++d)
+      {
+        const std::int32_t knot = meshes.at(trace.Face).FindCrossing(trace.Knots, d);
+        if (knot >= 0)
+        {
+          marks.push_back(this->ToMark(i, face, trace.Face, d, knot));
+        }
+      }
+    });
+  return marks;
+}
+
+//------------------------------------------------------------------------------
+// The split at a knot line of a trace, as its function sees it.
+RefinementMark BlockSpline::ToMark(
+  Index function, const BlockFace& face, Index traceFace, int d, std::int32_t knot) const
+{
+  const std::array<int, 2> axes = TangentialAxes(face.Axis);
+  int direction = axes[d];
+  if (traceFace != 6 * face.Block + 2 * face.Axis + face.Side)
+  {
+    const FaceTwin& twin = this->Complex->Twin(face);
+    knot = twin.Flipped[d] ? this->One - knot : knot;
+    direction = axes[twin.Swapped ? 1 - d : d];
+  }
+  return { function, direction, this->Complex->Origins[face.Block][direction] * this->One + knot };
+}
+
+//------------------------------------------------------------------------------
+std::unique_ptr<RefinementRule> MakeBlockRule(const BlockSpline& layout, const TSpline& coarsest)
+{
+  return std::make_unique<BlockRule>(layout, MakeKnotInsertionRule(coarsest));
+}
+}

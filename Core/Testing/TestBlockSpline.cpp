@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BlockShapes.h"
+#include "Fit/BlockSpline.h"
+#include "RandomRefinement.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <stdexcept>
+
+namespace
+{
+using namespace trivariate;
+
+struct NamedComplex
+{
+  const char* Name;
+  BlockComplex Blocks;
+};
+
+std::vector<NamedComplex> Shapes()
+{
+  return { { "cube", CubesComplex({ { 0, 0, 0 } }) },
+    { "two cubes", CubesComplex({ { 0, 0, 0 }, { 1, 0, 0 } }) },
+    { "L", CubesComplex({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }) },
+    { "layered cube", LayeredCubeComplex() }, { "three around an edge", ThreeAroundAnEdge() },
+    { "ring", BlockComplex({ { 0, 0, 3, 3, 4, 4, 7, 7 } }, { 0 }, { 0 }, { { 0, 0, 0 } }) } };
+}
+
+// Control points at random, one for those that share it.
+void Scatter(const BlockSpline& layout, TSpline& spline, std::mt19937& random)
+{
+  const SharedPoints shared = layout.Share(spline);
+  std::vector<double> values(shared.Count() * spline.Components);
+  for (double& value : values)
+  {
+    value = Random(random, -1.0, 1.0);
+  }
+  for (Index i = 0; i < spline.Size(); ++i)
+  {
+    std::copy_n(
+      &values[shared.PointOf[i] * spline.Components], spline.Components, spline.ControlPoint(i));
+  }
+}
+
+Point RandomPointIn(const BlockComplex& blocks, Index b, std::mt19937& random)
+{
+  Point x;
+  for (int a = 0; a < 3; ++a)
+  {
+    x[a] = blocks.Origins[b][a] + Random(random, 0.0, 1.0);
+  }
+  return x;
+}
+
+// The point (s, t) of a face in parameter space.
+Point PointOn(const BlockComplex& blocks, const BlockFace& face, const std::array<double, 2>& st)
+{
+  const LatticePoint& o = blocks.Origins[face.Block];
+  const auto axes = TangentialAxes(face.Axis);
+  Point x;
+  x[face.Axis] = o[face.Axis] + face.Side;
+  x[axes[0]] = o[axes[0]] + st[0];
+  x[axes[1]] = o[axes[1]] + st[1];
+  return x;
+}
+
+// The largest difference between the two sides of all glued faces, in numerators and denominator.
+double LargestGap(const BlockComplex& blocks, const TSpline& spline, std::mt19937& random)
+{
+  double gap = 0.0;
+  for (Index b = 0; b < blocks.Size(); ++b)
+  {
+    for (int f = 0; f < 6; ++f)
+    {
+      const BlockFace face{ b, f / 2, f % 2 };
+      for (int trial = 0; trial < 4 && blocks.IsGlued(face); ++trial)
+      {
+        std::array<double, 2> st{ Random(random, 0.0, 1.0), Random(random, 0.0, 1.0) };
+        st[0] = trial == 3 ? 0.0 : st[0]; // on an edge
+        const FaceTwin& twin = blocks.Twin(face);
+        const auto own = HomogeneousValue(spline, PointOn(blocks, face, st));
+        const auto other =
+          HomogeneousValue(spline, PointOn(blocks, twin.Face, twin.Map<double>(st, 1.0)));
+        for (std::size_t c = 0; c < own.size(); ++c)
+        {
+          gap = std::max(gap, std::abs(own[c] - other[c]));
+        }
+      }
+    }
+  }
+  return gap;
+}
+
+TEST(BlockSpline, SharesThePointsOfCommonFaces)
+{
+  // One cell a block: 4 x 4 x 4 control points, of which the faces' 4 x 4 are common.
+  const auto count = [](const BlockComplex& blocks)
+  {
+    const BlockSpline layout(blocks, 3);
+    return layout.Share(layout.MakeCoarsest(1, 0)).Count();
+  };
+  EXPECT_EQ(count(CubesComplex({ { 0, 0, 0 } })), 64);
+  EXPECT_EQ(count(CubesComplex({ { 0, 0, 0 }, { 1, 0, 0 } })), 5 * 4 * 4);
+  EXPECT_EQ(count(CubesComplex({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } })), 64 + 48 + 48);
+  // The core, and three more layers of the 56 points on the surface of a 4 x 4 x 4 grid.
+  EXPECT_EQ(count(LayeredCubeComplex()), 64 + 3 * 56);
+  // Three cells of a hexagon: 3 * 9 + 3 * 3 + 1 points in each of four planes.
+  EXPECT_EQ(count(ThreeAroundAnEdge()), 4 * (3 * 9 + 3 * 3 + 1));
+  EXPECT_EQ(count(BlockComplex({ { 0, 0, 3, 3, 4, 4, 7, 7 } }, { 0 }, { 0 }, { { 0, 0, 0 } })), 48);
+  EXPECT_THROW(BlockSpline(LayeredCubeComplex(), 3).MakeCoarsest(16, 0), std::invalid_argument);
+  EXPECT_THROW(BlockSpline(LayeredCubeComplex(), 3).MakeCoarsest(3, 0), std::invalid_argument);
+}
+
+// Promise 7 over a domain: after many random refinements the spline is what it was, functions sum
+// to one in every block, and there is no gap at any face.
+TEST(BlockSpline, StaysWholeUnderRefinement)
+{
+  for (const NamedComplex& shape : Shapes())
+  {
+    SCOPED_TRACE(shape.Name);
+    const BlockComplex& blocks = shape.Blocks;
+    const BlockSpline layout(blocks, 4);
+    for (unsigned seed = 0; seed < 6; ++seed)
+    {
+      std::mt19937 random(seed);
+      TSpline spline = layout.MakeCoarsest(seed % 2 ? 2 : 1, 1);
+      Scatter(layout, spline, random);
+      const TSpline coarse = spline;
+      const auto rule = MakeBlockRule(layout, spline);
+      for (int round = 0; round < 8; ++round)
+      {
+        const Index b = static_cast<Index>(random() % blocks.Size());
+        rule->Refine(spline, RandomMarks(spline, RandomPointIn(blocks, b, random), 6, random));
+      }
+      ASSERT_EQ(Validate(spline), "");
+      EXPECT_GT(spline.Size(), coarse.Size() + 20);
+      EXPECT_TRUE(layout.CrossedTraces(spline).empty());
+      for (Index b = 0; b < blocks.Size(); ++b)
+      {
+        for (int trial = 0; trial < 10; ++trial)
+        {
+          const Point x = RandomPointIn(blocks, b, random);
+          const auto before = HomogeneousValue(coarse, x), now = HomogeneousValue(spline, x);
+          EXPECT_NEAR(now.back(), 1.0, 1e-13);
+          for (std::size_t c = 0; c < now.size(); ++c)
+          {
+            EXPECT_NEAR(now[c], before[c], 1e-12);
+          }
+        }
+      }
+      EXPECT_LT(LargestGap(blocks, spline, random), 1e-13);
+      Scatter(layout, spline, random);
+      EXPECT_LT(LargestGap(blocks, spline, random), 1e-14);
+    }
+  }
+}
+
+// What the rule makes equal was equal to rounding: traces and weights come out the same on both
+// sides whatever the order of the splits.
+TEST(BlockSpline, WeightsAgreeWithoutBeingMadeToAgree)
+{
+  const BlockComplex blocks = LayeredCubeComplex();
+  const BlockSpline layout(blocks, 4);
+  for (unsigned seed = 0; seed < 10; ++seed)
+  {
+    std::mt19937 random(seed);
+    TSpline spline = layout.MakeCoarsest(1, 0);
+    Scatter(layout, spline, random);
+    const auto rule = MakeKnotInsertionRule(spline);
+    for (int round = 0; round < 8; ++round)
+    {
+      const Index b = static_cast<Index>(random() % blocks.Size());
+      std::vector<RefinementMark> marks =
+        RandomMarks(spline, RandomPointIn(blocks, b, random), 6, random);
+      for (; !marks.empty(); marks = layout.CrossedTraces(spline))
+      {
+        rule->Refine(spline, marks);
+      }
+    }
+    const SharedPoints shared = layout.Share(spline);
+    EXPECT_LT(shared.Count(), spline.Size());
+    for (Index i = 0; i < spline.Size(); ++i)
+    {
+      const Index first = shared.FirstOf[shared.PointOf[i]];
+      EXPECT_NEAR(spline.Weights[i], spline.Weights[first], 1e-14);
+      for (int c = 0; c < 3; ++c)
+      {
+        EXPECT_NEAR(spline.ControlPoint(i)[c], spline.ControlPoint(first)[c], 1e-12);
+      }
+    }
+    EXPECT_LT(LargestGap(blocks, spline, random), 1e-12);
+  }
+}
+
+// A split along a face goes to the other side and on from there; one across it does not.
+TEST(BlockSpline, SplitsBothSidesAlongAFaceOnly)
+{
+  const BlockComplex blocks = LayeredCubeComplex();
+  const BlockSpline layout(blocks, 3);
+  TSpline spline = layout.MakeCoarsest(1, 0);
+  const auto rule = MakeBlockRule(layout, spline);
+  const auto sizeOf = [&](Index b)
+  {
+    return std::count_if(spline.Functions.begin(), spline.Functions.end(),
+      [&](const BlendingFunction& f) { return layout.BlockOf(f) == b; });
+  };
+  // The first function of the block on +w: clamped at the low ends, a corner of the core's face.
+  const Index top = 6;
+  const auto first = std::find_if(spline.Functions.begin(), spline.Functions.end(),
+    [&](const BlendingFunction& f) { return layout.BlockOf(f) == top; });
+  const auto mark = [&](int direction)
+  {
+    return RefinementMark{ first - spline.Functions.begin(), direction,
+      blocks.Origins[top][direction] * 8 + 4 };
+  };
+  rule->Refine(spline, { mark(2) });
+  // The depth of a layer is that of its four neighbours, and theirs that of the last one.
+  EXPECT_EQ(sizeOf(0), 64);
+  for (Index b = 1; b < 7; ++b)
+  {
+    EXPECT_EQ(sizeOf(b), 4 * 4 * 5);
+  }
+}
+}
