@@ -15,21 +15,6 @@ namespace
 {
 using Counts = std::array<int, 3>;
 
-// The points of a face: its two other axes in ascending order, the first one fastest.
-std::array<Index, 4> FacePoints(const BlockPoints& block, int axis, int side)
-{
-  std::array<Index, 4> points;
-  for (int i = 0; i < 4; ++i)
-  {
-    std::array<int, 3> ends;
-    ends[axis] = side;
-    ends[axis == 0 ? 1 : 0] = i % 2;
-    ends[axis == 2 ? 1 : 2] = i / 2;
-    points[i] = block[CornerAtEnds(ends[0], ends[1], ends[2])];
-  }
-  return points;
-}
-
 // The grid of nodes of a face that blocks see from different sides. Its rows begin at the point of
 // least number and lead to the lesser of that one's two neighbours.
 struct StoredFace
@@ -213,6 +198,21 @@ BlockMesh Numbering::Number(const std::vector<Counts>& sizes)
   mesh.Places.assign(this->Next, Eigen::Vector3d::Zero());
   return mesh;
 }
+}
+
+//------------------------------------------------------------------------------
+std::array<Index, 4> FacePoints(const BlockPoints& block, int axis, int side)
+{
+  std::array<Index, 4> points;
+  for (int i = 0; i < 4; ++i)
+  {
+    std::array<int, 3> ends;
+    ends[axis] = side;
+    ends[axis == 0 ? 1 : 0] = i % 2;
+    ends[axis == 2 ? 1 : 2] = i / 2;
+    points[i] = block[CornerAtEnds(ends[0], ends[1], ends[2])];
+  }
+  return points;
 }
 
 //------------------------------------------------------------------------------

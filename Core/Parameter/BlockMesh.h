@@ -33,6 +33,9 @@ constexpr int CornerAtEnds(int a, int b, int c)
   return 4 * c + (b ? 3 - a : a);
 }
 
+/// The points of a face: its two other axes in ascending order, the first one fastest.
+std::array<Index, 4> FacePoints(const BlockPoints& block, int axis, int side);
+
 struct BlockMesh
 {
   std::vector<std::array<int, 3>> Sizes; ///< cells of each block along its axes; glued faces agree

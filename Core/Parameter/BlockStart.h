@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// A block mesh to start from: on the surface where it must be, interpolated inside.
+#ifndef trivariate_BlockStart_h
+#define trivariate_BlockStart_h
+
+#include "BlockDomain.h"
+#include "Execution.h"
+
+namespace trivariate
+{
+/**
+ * Nodes on borders are evenly spaced, those on patches are the regular grid of their PatchMap. The
+ * face across from the patch of a layer is the patch, moved as its corners are. All other edges are
+ * straight, faces and blocks transfinite interpolations of what bounds them. Cells may be inverted.
+ */
+BlockMesh StartOfBlockMesh(const BlockDomain& domain, const std::vector<std::array<int, 3>>& sizes,
+  const Execution& execution);
+}
+
+#endif

@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PatchMap.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/SparseLU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace trivariate
+{
+namespace
+{
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+Vector2d SquareCorner(int i)
+{
+  return { i == 1 || i == 2 ? 1.0 : 0.0, i >= 2 ? 1.0 : 0.0 };
+}
+
+// The tangent of half the angle between two directions; finite up to a straight angle.
+double TangentOfHalf(const Vector3d& a, const Vector3d& b)
+{
+  const double sine = a.cross(b).norm(), product = a.norm() * b.norm();
+  const double one = product + a.dot(b);
+  return sine / std::max(one, 1e-12 * product);
+}
+
+// The barycentric coordinates of p, and the least of them; -infinity in a flat triangle.
+double Barycentric(
+  const Vector2d& p, const Vector2d& a, const Vector2d& b, const Vector2d& c, Vector3d& weights)
+{
+  const auto area = [](const Vector2d& x, const Vector2d& y) { return x[0] * y[1] - x[1] * y[0]; };
+  const double whole = area(b - a, c - a);
+  if (std::abs(whole) < 1e-14)
+  {
+    return -std::numeric_limits<double>::infinity();
+  }
+  weights = Vector3d(area(b - p, c - p), area(c - p, a - p), area(a - p, b - p)) / whole;
+  return weights.minCoeff();
+}
+}
+
+//------------------------------------------------------------------------------
+PatchMap::PatchMap(const BlockDomain& domain, Index patch)
+  : Domain(domain)
+  , Patch(domain.Patches[patch])
+{
+  this->Number();
+  this->MapSides();
+  this->MapInside();
+  this->FillBuckets();
+}
+
+void PatchMap::Number()
+{
+  for (const Index t : this->Patch.Triangles)
+  {
+    const Triangle& c = this->Domain.Triangles[t];
+    this->Points.insert(this->Points.end(), c.begin(), c.end());
+  }
+  std::sort(this->Points.begin(), this->Points.end());
+  this->Points.erase(std::unique(this->Points.begin(), this->Points.end()), this->Points.end());
+  const auto numberOf = [this](Index point)
+  {
+    return static_cast<Index>(
+      std::lower_bound(this->Points.begin(), this->Points.end(), point) - this->Points.begin());
+  };
+  for (const Index t : this->Patch.Triangles)
+  {
+    const Triangle& c = this->Domain.Triangles[t];
+    this->Triangles.push_back({ numberOf(c[0]), numberOf(c[1]), numberOf(c[2]) });
+  }
+}
+
+void PatchMap::MapSides()
+{
+  this->Square.assign(this->Points.size(), Vector2d::Zero());
+  this->OnSide.assign(this->Points.size(), 0);
+  for (int side = 0; side < 4; ++side)
+  {
+    const std::vector<Index>& line = this->Patch.Sides[side];
+    const double length =
+      this->Domain.EdgeLength(this->Patch.Corners[side], this->Patch.Corners[(side + 1) % 4]);
+    double way = 0.0;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i)
+    {
+      const Index point =
+        std::lower_bound(this->Points.begin(), this->Points.end(), line[i]) - this->Points.begin();
+      const double share = way / length;
+      this->Square[point] =
+        (1.0 - share) * SquareCorner(side) + share * SquareCorner((side + 1) % 4);
+      this->OnSide[point] = 1;
+      way += (this->Domain.SurfacePoints[line[i + 1]] - this->Domain.SurfacePoints[line[i]]).norm();
+    }
+  }
+}
+
+void PatchMap::MapInside()
+{
+  std::vector<Index> unknown(this->Points.size(), -1);
+  Index unknowns = 0;
+  for (std::size_t p = 0; p < this->Points.size(); ++p)
+  {
+    unknown[p] = this->OnSide[p] ? -1 : unknowns++;
+  }
+  if (unknowns == 0)
+  {
+    return;
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(unknowns, 2);
+  for (const Triangle& c : this->Triangles)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Index row = unknown[c[k]];
+      if (row < 0)
+      {
+        continue;
+      }
+      const Vector3d& at = this->Domain.SurfacePoints[this->Points[c[k]]];
+      const Index ends[2] = { c[(k + 1) % 3], c[(k + 2) % 3] };
+      const Vector3d edges[2] = { this->Domain.SurfacePoints[this->Points[ends[0]]] - at,
+        this->Domain.SurfacePoints[this->Points[ends[1]]] - at };
+      const double tangent = TangentOfHalf(edges[0], edges[1]);
+      for (int end = 0; end < 2; ++end)
+      {
+        const double weight =
+          tangent / std::max(edges[end].norm(), std::numeric_limits<double>::min());
+        entries.emplace_back(row, row, weight);
+        if (unknown[ends[end]] >= 0)
+        {
+          entries.emplace_back(row, unknown[ends[end]], -weight);
+        }
+        else
+        {
+          right.row(row) += weight * this->Square[ends[end]].transpose();
+        }
+      }
+    }
+  }
+  Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SparseLU<Eigen::SparseMatrix<double>> factors(matrix);
+  const Eigen::MatrixX2d solution =
+    factors.info() == Eigen::Success ? Eigen::MatrixX2d(factors.solve(right)) : right;
+  if (factors.info() != Eigen::Success || !solution.allFinite())
+  {
+    throw std::runtime_error(
+      "A patch of " + std::to_string(this->Points.size()) + " points cannot be made flat.");
+  }
+  for (std::size_t p = 0; p < this->Points.size(); ++p)
+  {
+    if (unknown[p] >= 0)
+    {
+      this->Square[p] = solution.row(unknown[p]);
+    }
+  }
+}
+
+void PatchMap::FillBuckets()
+{
+  this->BucketsAlong = std::max(1, static_cast<int>(std::sqrt(double(this->Triangles.size()) / 2)));
+  this->Buckets.resize(std::size_t(this->BucketsAlong) * this->BucketsAlong);
+  const auto bucket = [this](double x)
+  { return std::clamp(static_cast<int>(x * this->BucketsAlong), 0, this->BucketsAlong - 1); };
+  for (std::size_t t = 0; t < this->Triangles.size(); ++t)
+  {
+    const Triangle& c = this->Triangles[t];
+    const Vector2d &p = this->Square[c[0]], &q = this->Square[c[1]], &r = this->Square[c[2]];
+    const Vector2d low = p.cwiseMin(q).cwiseMin(r), high = p.cwiseMax(q).cwiseMax(r);
+    for (int j = bucket(low[1] - 1e-9); j <= bucket(high[1] + 1e-9); ++j)
+    {
+      for (int i = bucket(low[0] - 1e-9); i <= bucket(high[0] + 1e-9); ++i)
+      {
+        this->Buckets[i + std::size_t(this->BucketsAlong) * j].push_back(static_cast<Index>(t));
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+Vector3d PatchMap::At(const Vector2d& st) const
+{
+  const auto bucket = [this](double x)
+  { return std::clamp(static_cast<int>(x * this->BucketsAlong), 0, this->BucketsAlong - 1); };
+  double best = -std::numeric_limits<double>::infinity();
+  Vector3d place = Vector3d::Zero();
+  for (const Index t :
+    this->Buckets[bucket(st[0]) + std::size_t(this->BucketsAlong) * bucket(st[1])])
+  {
+    const Triangle& c = this->Triangles[t];
+    Vector3d weights;
+    const double least =
+      Barycentric(st, this->Square[c[0]], this->Square[c[1]], this->Square[c[2]], weights);
+    if (least > best)
+    {
+      best = least;
+      weights = weights.cwiseMax(0.0);
+      weights /= weights.sum();
+      place = weights[0] * this->Domain.SurfacePoints[this->Points[c[0]]] +
+              weights[1] * this->Domain.SurfacePoints[this->Points[c[1]]] +
+              weights[2] * this->Domain.SurfacePoints[this->Points[c[2]]];
+    }
+  }
+  return place;
+}
+
+Vector2d PatchMap::CornerOf(Index point) const
+{
+  const auto found = std::find(this->Patch.Corners.begin(), this->Patch.Corners.end(), point);
+  return SquareCorner(static_cast<int>(found - this->Patch.Corners.begin()));
+}
+}

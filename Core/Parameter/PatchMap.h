@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// A patch of a surface mapped to the unit square and back.
+#ifndef trivariate_PatchMap_h
+#define trivariate_PatchMap_h
+
+#include "BlockDomain.h"
+
+namespace trivariate
+{
+/**
+ * Corners 0 to 3 of the patch go to (0, 0), (1, 0), (1, 1), (0, 1), its sides to those of the
+ * square by length, points inside to the means of their neighbours with mean-value weights: one to
+ * one (M. S. Floater, Mean value coordinates, 2003), but for triangles with all points on one side,
+ * which become flat.
+ */
+class PatchMap
+{
+public:
+  /// The domain must outlive the map. One sparse factorisation of as many unknowns as points.
+  PatchMap(const BlockDomain& domain, Index patch);
+
+  /// The place on the surface of a point of the square.
+  Eigen::Vector3d At(const Eigen::Vector2d& st) const;
+
+  /// The corner of the square of a point of the domain, which must be a corner of the patch.
+  Eigen::Vector2d CornerOf(Index point) const;
+
+private:
+  void Number();
+  void MapSides();
+  void MapInside();
+  void FillBuckets();
+
+  const BlockDomain& Domain;
+  const BlockPatch& Patch;
+  std::vector<Index> Points;           // of the surface
+  std::vector<Triangle> Triangles;     // of those
+  std::vector<Eigen::Vector2d> Square; // where they are
+  std::vector<char> OnSide;
+  int BucketsAlong = 1;
+  std::vector<std::vector<Index>> Buckets; // triangles over each cell of a grid of the square
+};
+}
+
+#endif
