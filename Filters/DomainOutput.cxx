@@ -15,6 +15,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <map>
 
 namespace trivariate
 {
@@ -36,11 +37,11 @@ vtkNew<vtkPoints> DoublePoints()
   return points;
 }
 
-// Where the points, corners and patches of a surface begin in the output; -1: not there yet.
-struct Bases
+// The numbers of a surface's points, corners and patches in the output.
+struct Numbers
 {
-  vtkIdType Point = -1;
-  int Corner = 0, Patch = 0;
+  std::vector<vtkIdType> Points;
+  std::vector<int> Corners, Patches;
 };
 
 class Writer
@@ -49,7 +50,7 @@ public:
   Writer(const LabelledSurface& surface, const DomainSet& domains)
     : Surface(surface)
     , Domains(domains)
-    , Begin(domains.Surfaces.size())
+    , Of(domains.Surfaces.size())
   {
     for (const BlocksOfSegment& segment : domains.Segments)
     {
@@ -68,21 +69,83 @@ public:
 private:
   void Number(Index surface)
   {
-    if (this->Begin[surface].Point < 0)
+    Numbers& own = this->Of[surface];
+    if (!own.Points.empty())
     {
-      this->Begin[surface] = this->End;
-      this->Order.push_back(surface);
-      const SurfaceLayout& layout = this->Domains.Surfaces[surface].Domain.Layout;
-      this->End.Point += static_cast<vtkIdType>(layout.Points.size());
-      this->End.Corner += static_cast<int>(layout.Corners.size());
-      this->End.Patch += static_cast<int>(layout.PatchLabels.size());
+      return;
+    }
+    const SurfaceLayout& layout = this->Domains.Surfaces[surface].Domain.Layout;
+    own.Points.assign(layout.Points.size(), -1);
+    own.Corners.assign(layout.Corners.size(), -1);
+    own.Patches.assign(layout.PatchLabels.size(), -1);
+    for (const SharedPatch& patch : this->Domains.Shared)
+    {
+      const bool first = patch.First == surface;
+      const Index other = first ? patch.Second : patch.First;
+      if ((first || patch.Second == surface) && !this->Of[other].Points.empty())
+      {
+        this->TakeOver(surface, first ? patch.FirstPatch : patch.SecondPatch, other,
+          first ? patch.SecondPatch : patch.FirstPatch);
+      }
+    }
+    const auto fill = [](auto& numbers, auto& next)
+    {
+      for (auto& number : numbers)
+      {
+        number = number < 0 ? next++ : number;
+      }
+    };
+    fill(own.Points, this->NumberOfPoints);
+    fill(own.Corners, this->NumberOfCorners);
+    fill(own.Patches, this->NumberOfPatches);
+    this->Order.push_back(surface);
+  }
+
+  // The numbers that a patch, its corners and points have on another surface already.
+  void TakeOver(Index surface, Index patch, Index other, Index otherPatch)
+  {
+    const DomainSurface &to = this->Domains.Surfaces[surface],
+                        &from = this->Domains.Surfaces[other];
+    const SurfaceLayout &layout = to.Domain.Layout, &there = from.Domain.Layout;
+    Numbers &own = this->Of[surface], &given = this->Of[other];
+    own.Patches[patch] = given.Patches[otherPatch];
+    std::map<Index, std::size_t> triangleOf; // of the labelled surface; uncut on both sides
+    for (std::size_t t = 0; t < there.Triangles.size(); ++t)
+    {
+      if (there.Patches[t] == otherPatch)
+      {
+        triangleOf[from.Origins[there.Origins[t]]] = t;
+      }
+    }
+    for (std::size_t t = 0; t < layout.Triangles.size(); ++t)
+    {
+      if (layout.Patches[t] == patch)
+      {
+        const Triangle& twin = there.Triangles[triangleOf.at(to.Origins[layout.Origins[t]])];
+        for (const Index p : layout.Triangles[t])
+        {
+          own.Points[p] = given.Points[*std::find_if(twin.begin(), twin.end(),
+            [&](Index q) { return there.Points[q] == layout.Points[p]; })];
+        }
+      }
+    }
+    for (std::size_t corner = 0; corner < layout.Corners.size(); ++corner)
+    {
+      for (std::size_t twin = 0; twin < there.Corners.size(); ++twin)
+      {
+        if (own.Points[layout.Corners[corner]] == given.Points[there.Corners[twin]])
+        {
+          own.Corners[corner] = given.Corners[twin];
+        }
+      }
     }
   }
 
   const LabelledSurface& Surface;
   const DomainSet& Domains;
-  std::vector<Bases> Begin;
-  Bases End{ 0, 0, 0 };
+  std::vector<Numbers> Of; // each surface; empty: of no segment
+  vtkIdType NumberOfPoints = 0;
+  int NumberOfCorners = 0, NumberOfPatches = 0;
   std::vector<Index> Order; // surfaces that segments have
 };
 
@@ -91,19 +154,20 @@ void Writer::Patches(vtkPolyData* output) const
 {
   const vtkNew<vtkPoints> points = DoublePoints();
   const auto cornerId = Named<vtkIntArray>("CornerId");
+  points->SetNumberOfPoints(this->NumberOfPoints);
+  cornerId->SetNumberOfValues(this->NumberOfPoints);
+  cornerId->FillValue(-1);
   for (const Index number : this->Order)
   {
     const SurfaceLayout& layout = this->Domains.Surfaces[number].Domain.Layout;
-    const vtkIdType begin = points->GetNumberOfPoints();
-    for (const Eigen::Vector3d& point : layout.Points)
+    const Numbers& own = this->Of[number];
+    for (std::size_t p = 0; p < layout.Points.size(); ++p)
     {
-      points->InsertNextPoint(point.data());
-      cornerId->InsertNextValue(-1);
+      points->SetPoint(own.Points[p], layout.Points[p].data());
     }
     for (std::size_t corner = 0; corner < layout.Corners.size(); ++corner)
     {
-      cornerId->SetValue(
-        begin + layout.Corners[corner], this->Begin[number].Corner + static_cast<int>(corner));
+      cornerId->SetValue(own.Points[layout.Corners[corner]], own.Corners[corner]);
     }
   }
 
@@ -117,15 +181,15 @@ void Writer::Patches(vtkPolyData* output) const
   {
     const DomainSurface& surface = this->Domains.Surfaces[number];
     const SurfaceLayout& layout = surface.Domain.Layout;
-    const Bases& begin = this->Begin[number];
+    const Numbers& own = this->Of[number];
     for (std::size_t t = 0; t < layout.Triangles.size(); ++t)
     {
       const Triangle& c = layout.Triangles[t];
-      const vtkIdType ids[3] = { begin.Point + c[0], begin.Point + c[inner ? 2 : 1],
-        begin.Point + c[inner ? 1 : 2] };
+      const vtkIdType ids[3] = { own.Points[c[0]], own.Points[c[inner ? 2 : 1]],
+        own.Points[c[inner ? 1 : 2]] };
       cells->InsertNextCell(3, ids);
       const ChartLabel label = layout.PatchLabels[layout.Patches[t]];
-      patch->InsertNextValue(begin.Patch + static_cast<int>(layout.Patches[t]));
+      patch->InsertNextValue(own.Patches[layout.Patches[t]]);
       axis->InsertNextValue(static_cast<signed char>(label / 2));
       side->InsertNextValue(static_cast<signed char>(inner ? 1 - label % 2 : label % 2));
       owner->InsertNextValue(segment);
@@ -167,22 +231,23 @@ void Writer::Polycubes(
   const auto owner = Named<vtkIntArray>("Segment");
   const auto block = Named<vtkIntArray>("Block");
   const auto patch = Named<vtkIntArray>("Patch");
-  std::vector<vtkIdType> pointOfCorner(this->End.Corner, -1);
+  const auto alignment = Named<vtkDoubleArray>("Alignment");
+  std::vector<vtkIdType> pointOfCorner(this->NumberOfCorners, -1);
   int blocks = 0;
   output->Allocate();
   for (const BlocksOfSegment& segment : this->Domains.Segments)
   {
-    const auto cornersOf = [this](Index surface)
-    { return static_cast<Index>(this->Domains.Surfaces[surface].Domain.Layout.Corners.size()); };
-    const Index outer = cornersOf(segment.Outer);
-    const Index inner = segment.Inner < 0 ? 0 : cornersOf(segment.Inner);
+    std::vector<int> corners = this->Of[segment.Outer].Corners;
+    if (segment.Inner >= 0)
+    {
+      const std::vector<int>& inner = this->Of[segment.Inner].Corners;
+      corners.insert(corners.end(), inner.begin(), inner.end());
+    }
+    corners.resize(segment.Blocks.Places.size(), -1);
     std::vector<vtkIdType> ids;
     for (std::size_t p = 0; p < segment.Blocks.Places.size(); ++p)
     {
-      const Index i = static_cast<Index>(p);
-      const int corner = i < outer           ? this->Begin[segment.Outer].Corner + int(i)
-                         : i < outer + inner ? this->Begin[segment.Inner].Corner + int(i - outer)
-                                             : -1;
+      const int corner = corners[p];
       if (corner >= 0 && pointOfCorner[corner] >= 0)
       {
         ids.push_back(pointOfCorner[corner]);
@@ -203,16 +268,16 @@ void Writer::Polycubes(
                              [](const DomainBlock& b) { return b.Face < 0; });
     for (const DomainBlock& hexahedron : segment.Blocks.Blocks)
     {
-      vtkIdType corners[8];
-      std::transform(hexahedron.Points.begin(), hexahedron.Points.end(), corners,
+      vtkIdType eight[8];
+      std::transform(hexahedron.Points.begin(), hexahedron.Points.end(), eight,
         [&ids](Index point) { return ids[point]; });
-      output->InsertNextCell(VTK_HEXAHEDRON, 8, corners);
+      output->InsertNextCell(VTK_HEXAHEDRON, 8, eight);
       owner->InsertNextValue(segment.Segment);
+      alignment->InsertNextValue(this->Domains.Surfaces[segment.Outer].Domain.Alignment);
       block->InsertNextValue(blocks);
       blocks += grid ? 0 : 1;
       patch->InsertNextValue(
-        hexahedron.Face < 0 ? -1
-                            : this->Begin[segment.Outer].Patch + static_cast<int>(hexahedron.Face));
+        hexahedron.Face < 0 ? -1 : this->Of[segment.Outer].Patches[hexahedron.Face]);
     }
     blocks += grid ? 1 : 0;
   }
@@ -226,6 +291,7 @@ void Writer::Polycubes(
   output->GetCellData()->AddArray(owner);
   output->GetCellData()->AddArray(block);
   output->GetCellData()->AddArray(patch);
+  output->GetCellData()->AddArray(alignment);
 }
 
 //------------------------------------------------------------------------------
@@ -235,28 +301,28 @@ void Writer::Borders(vtkPolyData* output) const
   const auto cornerId = Named<vtkIntArray>("CornerId");
   const auto sides = Named<vtkIntArray>("BorderPatches", 2);
   vtkNew<vtkCellArray> lines;
+  std::vector<vtkIdType> pointOf(this->NumberOfPoints, -1); // of those of the patches
   for (const Index number : this->Order)
   {
     const SurfaceLayout& layout = this->Domains.Surfaces[number].Domain.Layout;
-    const Bases& begin = this->Begin[number];
-    std::vector<vtkIdType> pointOf(layout.Points.size(), -1);
+    const Numbers& own = this->Of[number];
     for (const LayoutBorder& border : layout.Borders)
     {
       std::vector<vtkIdType> line;
       for (const Index point : border.Points)
       {
-        if (pointOf[point] < 0)
+        vtkIdType& number = pointOf[own.Points[point]];
+        if (number < 0)
         {
-          pointOf[point] = points->InsertNextPoint(layout.Points[point].data());
+          number = points->InsertNextPoint(layout.Points[point].data());
           cornerId->InsertNextValue(-1);
         }
-        line.push_back(pointOf[point]);
+        line.push_back(number);
       }
-      cornerId->SetValue(line.front(), begin.Corner + static_cast<int>(border.Corners[0]));
-      cornerId->SetValue(line.back(), begin.Corner + static_cast<int>(border.Corners[1]));
+      cornerId->SetValue(line.front(), own.Corners[border.Corners[0]]);
+      cornerId->SetValue(line.back(), own.Corners[border.Corners[1]]);
       lines->InsertNextCell(static_cast<vtkIdType>(line.size()), line.data());
-      const int pair[2] = { begin.Patch + static_cast<int>(border.Patches[0]),
-        begin.Patch + static_cast<int>(border.Patches[1]) };
+      const int pair[2] = { own.Patches[border.Patches[0]], own.Patches[border.Patches[1]] };
       sides->InsertNextTypedTuple(pair);
     }
   }

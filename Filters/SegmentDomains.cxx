@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <map>
-#include <new>
+#include <set>
 #include <stdexcept>
 
 namespace trivariate
@@ -23,7 +23,14 @@ struct SegmentPieces
 {
   int Segment;
   std::vector<SurfacePiece> Pieces;
-  double Volume = 0.0; // inside of the outermost piece
+
+  // Inside of the outermost piece.
+  double Volume() const
+  {
+    return std::max_element(this->Pieces.begin(), this->Pieces.end(),
+      [](const SurfacePiece& a, const SurfacePiece& b) { return a.Volume < b.Volume; })
+      ->Volume;
+  }
 };
 
 // The same triangles seen from the other side.
@@ -51,17 +58,17 @@ public:
   {
   }
 
-  void Add(const SegmentPieces& segment, const Execution& execution)
+  void AddSolid(SolidSegment solid, const Execution& execution)
   {
-    if (segment.Pieces.size() == 1)
-    {
-      this->AddSolid(segment, execution);
-    }
-    else if (IsShell(segment.Pieces))
-    {
-      this->AddShell(segment, execution);
-    }
-    else
+    DomainBlocks blocks = BlocksOf(solid.Domain, this->Settings, execution);
+    const Index outer = this->Keep(std::move(solid.Domain), solid.Piece.Origins);
+    this->Finish({ solid.Segment, outer, -1, std::move(blocks) });
+    this->OuterOf[solid.Piece.Origins] = outer;
+  }
+
+  void AddShell(const SegmentPieces& segment, const Execution& execution)
+  {
+    if (!IsShell(segment.Pieces))
     {
       const auto cavities = std::count_if(segment.Pieces.begin(), segment.Pieces.end(),
         [](const SurfacePiece& piece) { return piece.Volume < 0.0; });
@@ -70,6 +77,60 @@ public:
         std::to_string(cavities) +
         " of them around cavities; make it one piece, or one shell, first "
         "(Segment Topology).");
+    }
+    const bool first = segment.Pieces[0].Volume > 0.0;
+    const SurfacePiece& outside = segment.Pieces[first ? 0 : 1];
+    const SurfacePiece& inside = segment.Pieces[first ? 1 : 0];
+    const auto filled = this->OuterOf.find(inside.Origins);
+    if (filled != this->OuterOf.end())
+    {
+      try
+      {
+        this->LayAround(segment.Segment, outside, filled->second, execution);
+        return;
+      }
+      catch (const std::runtime_error& error)
+      {
+        this->Reasons[segment.Segment] = error.what();
+      }
+    }
+    // A domain for the cavity alone.
+    DomainOptions oneCube = this->Settings.Options;
+    oneCube.MostCubes = 1;
+    const Index inner = this->Keep(
+      DomainOf(Reversed(inside.Mesh), oneCube, execution.Part(0.0, 0.4)), inside.Origins);
+    this->LayAround(segment.Segment, outside, inner, execution.Part(0.4, 1.0));
+  }
+
+  // Tells of segments that touch and share nothing. `reasons`: why, of some pairs.
+  void RemarkOnContacts(
+    const LabelledSurface& surface, const std::map<std::array<int, 2>, std::string>& reasons)
+  {
+    std::set<std::array<int, 2>> touching;
+    for (const std::array<int, 2>& labels : surface.Labels)
+    {
+      touching.insert({ std::min(labels[0], labels[1]), std::max(labels[0], labels[1]) });
+    }
+    for (const BlocksOfSegment& a : this->Set.Segments)
+    {
+      for (const BlocksOfSegment& b : this->Set.Segments)
+      {
+        if (touching.count({ a.Segment, b.Segment }) > 0 && a.Segment < b.Segment &&
+            !this->AreJoined(a, b))
+        {
+          const auto found = reasons.find({ a.Segment, b.Segment });
+          const auto reasonOf = [this](const BlocksOfSegment& segment)
+          { return this->Reasons.count(segment.Segment) ? this->Reasons.at(segment.Segment) : ""; };
+          const std::string reason = found != reasons.end() ? found->second
+                                     : !reasonOf(a).empty() ? reasonOf(a)
+                                     : !reasonOf(b).empty() ? reasonOf(b)
+                                                            : "one of them has a cavity";
+          this->Set.Remarks.push_back("Segments " + std::to_string(a.Segment) + " and " +
+                                      std::to_string(b.Segment) +
+                                      " touch but have separate domains there: " + reason +
+                                      (reason.back() == '.' ? "" : "."));
+        }
+      }
     }
   }
 
@@ -92,55 +153,28 @@ private:
     this->Set.Segments.push_back(std::move(segment));
   }
 
-  void AddSolid(const SegmentPieces& segment, const Execution& execution)
+  void LayAround(int segment, const SurfacePiece& outside, Index inner, const Execution& execution)
   {
-    const SurfacePiece& piece = segment.Pieces[0];
-    SegmentDomain domain = DomainOf(piece.Mesh, this->Settings.Options, execution.Part(0.0, 0.9));
-    DomainBlocks blocks = BlocksOf(domain, this->Settings, execution.Part(0.9, 1.0));
-    const Index outer = this->Keep(std::move(domain), piece.Origins);
-    this->Finish({ segment.Segment, outer, -1, std::move(blocks) });
-    this->OuterOf[piece.Origins] = outer;
-  }
-
-  void AddShell(const SegmentPieces& segment, const Execution& execution)
-  {
-    const bool first = segment.Pieces[0].Volume > 0.0;
-    const SurfacePiece& outside = segment.Pieces[first ? 0 : 1];
-    const SurfacePiece& inside = segment.Pieces[first ? 1 : 0];
-    const Index inner = this->InnerSurface(segment.Segment, inside, execution.Part(0.0, 0.4));
     const SegmentDomain& core = this->Set.Surfaces[inner].Domain;
-    SegmentDomain domain =
-      DomainAround(outside.Mesh, core, this->Settings.Options, execution.Part(0.4, 1.0));
+    SegmentDomain domain = DomainAround(outside.Mesh, core, this->Settings.Options, execution);
     DomainBlocks blocks = ShellBlocks(domain, core);
     const Index outer = this->Keep(std::move(domain), outside.Origins);
-    this->Finish({ segment.Segment, outer, inner, std::move(blocks) });
+    this->Finish({ segment, outer, inner, std::move(blocks) });
     this->OuterOf[outside.Origins] = outer;
   }
 
-  // That of the segment in the cavity, or one for the cavity alone.
-  Index InnerSurface(int shell, const SurfacePiece& cavity, const Execution& execution)
+  bool AreJoined(const BlocksOfSegment& a, const BlocksOfSegment& b) const
   {
-    const auto found = this->OuterOf.find(cavity.Origins);
-    if (found != this->OuterOf.end())
-    {
-      const std::size_t cubes = this->Set.Surfaces[found->second].Domain.Cubes.Cubes.size();
-      if (cubes == 1)
-      {
-        return found->second;
-      }
-      this->Set.Remarks.push_back(
-        NameOf(shell) +
-        " does not share its inner surface with the segment there, whose domain has " +
-        std::to_string(cubes) + " cubes; a shell goes around one. Their domains are separate.");
-    }
-    DomainOptions oneCube = this->Settings.Options;
-    oneCube.MostCubes = 1;
-    return this->Keep(DomainOf(Reversed(cavity.Mesh), oneCube, execution), cavity.Origins);
+    return a.Inner == b.Outer || b.Inner == a.Outer ||
+           std::any_of(this->Set.Shared.begin(), this->Set.Shared.end(),
+             [&](const SharedPatch& patch)
+             { return std::minmax(patch.First, patch.Second) == std::minmax(a.Outer, b.Outer); });
   }
 
   const DomainSettings& Settings;
   // Outer surfaces by their triangles of the labelled surface, ascending.
   std::map<std::vector<Index>, Index> OuterOf;
+  std::map<int, std::string> Reasons; // of a shell: why it does not share its inner surface
 };
 }
 
@@ -205,44 +239,57 @@ DomainSet FindDomains(const LabelledSurface& surface, const std::vector<int>& se
   const DomainSettings& settings, const Execution& execution)
 {
   Nest nest(settings);
-  std::vector<SegmentPieces> inOrder;
-  for (const int segment : segments)
+  // Does the work for a segment, or keeps the reason why it cannot be done.
+  const auto attempt = [&nest](int segment, const auto& work)
   {
     try
     {
-      inOrder.push_back({ segment, PiecesOf(surface, segment) });
-      for (const SurfacePiece& piece : inOrder.back().Pieces)
-      {
-        inOrder.back().Volume = std::max(inOrder.back().Volume, piece.Volume);
-      }
+      work();
     }
-    catch (const std::invalid_argument& error)
+    catch (const std::logic_error& error)
     {
       nest.Set.Failures.push_back(NameOf(segment) + ": " + error.what());
     }
-  }
-  std::stable_sort(inOrder.begin(), inOrder.end(),
-    [](const SegmentPieces& a, const SegmentPieces& b) { return a.Volume < b.Volume; });
-  for (std::size_t i = 0; i < inOrder.size(); ++i)
+    catch (const std::runtime_error& error)
+    {
+      nest.Set.Failures.push_back(NameOf(segment) + ": " + error.what());
+    }
+  };
+  std::vector<SegmentPieces> others;
+  std::vector<SolidSegment> solids;
+  for (std::size_t i = 0; i < segments.size(); ++i)
   {
-    const double count = double(inOrder.size());
-    try
-    {
-      nest.Add(inOrder[i], execution.Part(i / count, (i + 1) / count));
-    }
-    catch (const Aborted&)
-    {
-      throw;
-    }
-    catch (const std::bad_alloc&)
-    {
-      throw;
-    }
-    catch (const std::exception& error)
-    {
-      nest.Set.Failures.push_back(NameOf(inOrder[i].Segment) + ": " + error.what());
-    }
+    const double count = 2.0 * double(segments.size());
+    attempt(segments[i],
+      [&]()
+      {
+        SegmentPieces segment{ segments[i], PiecesOf(surface, segments[i]) };
+        if (segment.Pieces.size() > 1)
+        {
+          others.push_back(std::move(segment));
+          return;
+        }
+        SegmentDomain domain = DomainOf(
+          segment.Pieces[0].Mesh, settings.Options, execution.Part(i / count, (i + 1) / count));
+        solids.push_back({ segments[i], std::move(segment.Pieces[0]), std::move(domain) });
+      });
   }
+  SegmentContacts contacts =
+    ShareContacts(surface, solids, settings.Options, execution.Part(0.5, 0.6));
+  nest.Set.Shared = std::move(contacts.Shared); // surfaces are numbered as solids
+  for (SolidSegment& solid : solids)
+  {
+    nest.AddSolid(std::move(solid), execution.Part(0.6, 0.7));
+  }
+  std::stable_sort(others.begin(), others.end(),
+    [](const SegmentPieces& a, const SegmentPieces& b) { return a.Volume() < b.Volume(); });
+  for (std::size_t i = 0; i < others.size(); ++i)
+  {
+    const double step = 0.3 / double(others.size());
+    attempt(others[i].Segment,
+      [&]() { nest.AddShell(others[i], execution.Part(0.7 + step * i, 0.7 + step * (i + 1))); });
+  }
+  nest.RemarkOnContacts(surface, contacts.Reasons);
   std::sort(nest.Set.Segments.begin(), nest.Set.Segments.end(),
     [](const BlocksOfSegment& a, const BlocksOfSegment& b) { return a.Segment < b.Segment; });
   return std::move(nest.Set);

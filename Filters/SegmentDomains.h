@@ -5,7 +5,7 @@
 #define SegmentDomains_h
 
 #include "Domain/DomainShell.h"
-#include "SegmentSurface.h"
+#include "SegmentContacts.h"
 
 #include <string>
 #include <vector>
@@ -30,6 +30,7 @@ struct BlocksOfSegment
 struct DomainSet
 {
   std::vector<DomainSurface> Surfaces;
+  std::vector<SharedPatch> Shared;       ///< between touching segments; of Surfaces
   std::vector<BlocksOfSegment> Segments; ///< in order of the labels
   std::vector<std::string> Failures;     ///< one sentence for each segment without a domain
   std::vector<std::string> Remarks;      ///< about domains that are not what could be wished for
@@ -49,7 +50,8 @@ DomainBlocks BlocksOf(
 /**
  * Domains found automatically. A segment with a cavity becomes a shell; where what is in the cavity
  * is one of the segments with a domain of one cube, both share that surface with its corners and
- * patches.
+ * patches. Segments that touch in a disc share it as a patch (SegmentContacts.h). Remarks tell of
+ * those that touch and share nothing.
  */
 DomainSet FindDomains(const LabelledSurface& surface, const std::vector<int>& segments,
   const DomainSettings& settings, const Execution& execution);

@@ -10,8 +10,14 @@
  *
  * Automatic: cubes, corners and patches are found, so that the normals of the surface point along
  * the axes of the patches, at a cost for each corner. A segment with one cavity is a shell around
- * it, of six blocks; where the cavity is filled by a segment with a domain of one cube, both
- * segments share that surface, its corners, patches and coordinates.
+ * it, with a block on each patch.
+ *
+ * What neighbours share: a segment that fills the cavity of another has that surface in common with
+ * it, its corners, patches and coordinates. Two segments without cavities that touch in one disc
+ * (a box cut in two) have that disc as a patch in common, with corners on the curve around it. Both
+ * then lie side by side in one lattice, and what is fitted to them cannot crack there. Segments
+ * that touch in another way (in a ring, in several places, along a curve with a third one, over
+ * much more than a face) have separate domains; a warning says which and why.
  *
  * Manual: the shape is NumberOfCubes, without those that are switched off, and each corner of the
  * shape has a point near the surface, to which it is moved. Corners are those lattice points of the
@@ -35,7 +41,8 @@
  * points).
  * - cells: Patch (int32); PatchAxis (int8): 0, 1, 2, aligned with u, v, w of the block that it
  *   bounds; PatchSide (int8): 0 at the low end of the block, 1 at the high end; Segment (int32);
- *   BoundaryLabels (int32 x 2), that segment and the one on the other side.
+ *   BoundaryLabels (int32 x 2), that segment and the one on the other side. A patch that two
+ *   segments share has one number, and opposite sides.
  * - points: CornerId (int32), -1 where no corner is.
  *
  * Port 1, polycube: vtkUnstructuredGrid with a hexahedron for each block.
@@ -44,7 +51,8 @@
  *   corners were given), how far each was moved.
  * - cells: Segment; Block (int32), the group of cubes that shares one (u, v, w) grid: all of a
  *   segment, or each by itself where there are layers; Patch (int32), on which the block stands, or
- *   -1.
+ *   -1; Alignment (double), of the segment: the mean over its surface of the cosine between the
+ *   normal and the axis of the patch, 1 where all fit.
  *
  * Port 2, borders: vtkPolyData with a line for each border between two patches.
  * - points: CornerId (int32), -1 but for the ends. cells: BorderPatches (int32 x 2), on the left

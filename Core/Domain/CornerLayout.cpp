@@ -168,8 +168,31 @@ std::string CornerName(const Polycube& polycube, Index corner)
          " of the polycube";
 }
 
+// Marks them; returns the points of the corners at their ends, -1 for all other corners.
+std::vector<Index> CutGivenBorders(
+  LayoutMesh& mesh, const Polycube& polycube, const std::vector<GivenBorder>& given)
+{
+  std::vector<Index> corners(polycube.NumberOfCorners, -1);
+  for (const GivenBorder& border : given)
+  {
+    for (std::size_t i = 0; i < border.Points.size(); ++i)
+    {
+      mesh.Occupied[border.Points[i]] = 1;
+      if (i > 0)
+      {
+        const Index t = mesh.TriangleLeftOf(border.Points[i - 1], border.Points[i]);
+        mesh.SetMark(t, mesh.CornerOf(t, border.Points[i - 1]), border.Edge);
+      }
+    }
+    corners[polycube.Edges[border.Edge].From] = border.Points.front();
+    corners[polycube.Edges[border.Edge].To] = border.Points.back();
+  }
+  return corners;
+}
+
+// `placed`: the points of corners that have one already, -1 for the others.
 std::vector<Index> PlaceCorners(LayoutMesh& mesh, const Polycube& polycube,
-  const std::vector<Eigen::Vector3d>& corners, double farthest)
+  const std::vector<Eigen::Vector3d>& corners, double farthest, std::vector<Index> placed)
 {
   Eigen::Vector3d low = mesh.Points[0], high = low;
   for (const Eigen::Vector3d& point : mesh.Points)
@@ -177,7 +200,6 @@ std::vector<Index> PlaceCorners(LayoutMesh& mesh, const Polycube& polycube,
     low = low.cwiseMin(point);
     high = high.cwiseMax(point);
   }
-  std::vector<Index> placed;
   std::vector<Eigen::Vector3d> feet;
   for (std::size_t i = 0; i < corners.size(); ++i)
   {
@@ -186,6 +208,11 @@ std::vector<Index> PlaceCorners(LayoutMesh& mesh, const Polycube& polycube,
     {
       throw std::invalid_argument(
         "The place of " + CornerName(polycube, corner) + " is not finite.");
+    }
+    if (placed[i] >= 0)
+    {
+      feet.push_back(mesh.Points[placed[i]]);
+      continue;
     }
     const Foot foot = Project(mesh, corners[i]);
     if (foot.SquaredDistance > farthest * farthest)
@@ -207,15 +234,16 @@ std::vector<Index> PlaceCorners(LayoutMesh& mesh, const Polycube& polycube,
                                     " are at the same place of the surface.");
       }
     }
-    placed.push_back(PointAt(mesh, foot));
-    mesh.Occupied[placed.back()] = 1;
+    placed[i] = PointAt(mesh, foot);
+    mesh.Occupied[placed[i]] = 1;
   }
   return placed;
 }
 
-// Edges of a spanning tree first, then the others; each group shortest first.
-std::vector<Index> TracingOrder(
-  const Polycube& polycube, const std::vector<Eigen::Vector3d>& corners)
+// Edges of a tree that spans what `traced` ones leave apart first, then the others; each group
+// shortest first.
+std::vector<Index> TracingOrder(const Polycube& polycube,
+  const std::vector<Eigen::Vector3d>& corners, const std::vector<char>& traced)
 {
   std::vector<Index> order(polycube.Edges.size()), tree, others;
   std::iota(order.begin(), order.end(), Index(0));
@@ -233,11 +261,20 @@ std::vector<Index> TracingOrder(
     }
     return corner;
   };
-  for (const Index e : order)
+  for (const bool cut : { true, false })
   {
-    const Index from = root(polycube.Edges[e].From), to = root(polycube.Edges[e].To);
-    (from == to ? others : tree).push_back(e);
-    parent[from] = to;
+    for (const Index e : order)
+    {
+      if (cut == bool(traced[e]))
+      {
+        const Index from = root(polycube.Edges[e].From), to = root(polycube.Edges[e].To);
+        if (!cut)
+        {
+          (from == to ? others : tree).push_back(e);
+        }
+        parent[from] = to;
+      }
+    }
   }
   tree.insert(tree.end(), others.begin(), others.end());
   return tree;
@@ -270,11 +307,13 @@ PathEnd SectorFor(const LayoutBuilder& builder, const Polycube& polycube, Index 
 
 //------------------------------------------------------------------------------
 SurfaceLayout LayoutFromCorners(const SurfaceMesh& mesh, const Polycube& polycube,
-  const std::vector<Eigen::Vector3d>& corners, const Execution& execution, double farthest)
+  const std::vector<Eigen::Vector3d>& corners, const Execution& execution, double farthest,
+  const std::vector<GivenBorder>& given)
 {
   CheckInput(mesh, polycube, corners);
   LayoutBuilder builder(mesh);
-  builder.Corners = PlaceCorners(builder.Mesh, polycube, corners, farthest);
+  builder.Corners = PlaceCorners(
+    builder.Mesh, polycube, corners, farthest, CutGivenBorders(builder.Mesh, polycube, given));
   for (const Polycube::Face& face : polycube.Faces)
   {
     builder.PatchLabels.push_back(static_cast<ChartLabel>(2 * face.Axis + face.Side));
@@ -284,8 +323,13 @@ SurfaceLayout LayoutFromCorners(const SurfaceMesh& mesh, const Polycube& polycub
     builder.Borders.push_back({ { edge.From, edge.To }, { edge.Left, edge.Right }, {} });
   }
   std::vector<char> traced(polycube.Edges.size(), 0);
+  for (const GivenBorder& border : given)
+  {
+    traced[border.Edge] = 1;
+    builder.Fixed.insert(border.Edge);
+  }
   double done = 0.0;
-  for (const Index e : TracingOrder(polycube, corners))
+  for (const Index e : TracingOrder(polycube, corners, traced))
   {
     execution.Check(0.5 * done++ / double(polycube.Edges.size()));
     const Polycube::Edge& edge = polycube.Edges[e];

@@ -57,21 +57,24 @@ std::vector<Vector3d> CornersAbove(const SurfaceMesh& outer, const SurfaceLayout
 //------------------------------------------------------------------------------
 DomainBlocks ShellBlocks(const SegmentDomain& outer, const SegmentDomain& inner)
 {
-  if (outer.Cubes.Cubes.size() != 1 || inner.Cubes.Cubes.size() != 1)
+  if (outer.Cubes.Cubes != inner.Cubes.Cubes)
   {
-    throw std::invalid_argument("A shell needs a domain of one cube on both of its surfaces.");
+    throw std::invalid_argument("A shell needs the same polycube on both of its surfaces.");
   }
-  DomainBlocks blocks{ outer.Places, outer.Cubes.Points, {} };
+  const Polycube& cubes = outer.Cubes;
+  const auto firstInside = cubes.NumberOfCorners;
+  DomainBlocks blocks{ { outer.Places.begin(), outer.Places.begin() + firstInside },
+    { cubes.Points.begin(), cubes.Points.begin() + firstInside }, {} };
   std::vector<Index> below;
-  for (Index corner = 0; corner < inner.Cubes.NumberOfCorners; ++corner)
+  for (Index corner = 0; corner < cubes.NumberOfCorners; ++corner)
   {
     below.push_back(static_cast<Index>(blocks.Places.size()));
     blocks.Places.push_back(inner.Places[corner]);
-    blocks.Coordinates.push_back(inner.Cubes.Points[corner]);
+    blocks.Coordinates.push_back(cubes.Points[corner]);
   }
-  for (std::size_t face = 0; face < outer.Cubes.Faces.size(); ++face)
+  for (std::size_t face = 0; face < cubes.Faces.size(); ++face)
   {
-    blocks.Blocks.push_back(BlockOn(outer.Cubes, static_cast<Index>(face), below));
+    blocks.Blocks.push_back(BlockOn(cubes, static_cast<Index>(face), below));
   }
   return blocks;
 }
@@ -160,6 +163,19 @@ SegmentDomain TurnedToward(const SegmentDomain& domain, const SegmentDomain& oth
 SegmentDomain DomainAround(const SurfaceMesh& outer, const SegmentDomain& inner,
   const DomainOptions& options, const Execution& execution)
 {
+  const auto above = [&](const Execution& run)
+  { return DomainFromCorners(outer, inner.Cubes, CornersAbove(outer, inner.Layout), run); };
+  if (inner.Cubes.Cubes.size() > 1)
+  {
+    try
+    {
+      return above(execution);
+    }
+    catch (const std::invalid_argument& error) // two corners in one place, mirrored, handles
+    {
+      throw std::runtime_error(error.what());
+    }
+  }
   DomainOptions oneCube = options;
   oneCube.MostCubes = 1;
   const SegmentDomain own =
@@ -167,11 +183,10 @@ SegmentDomain DomainAround(const SurfaceMesh& outer, const SegmentDomain& inner,
   const double ownQuality = LeastJacobian(ShellBlocks(own, inner));
   try
   {
-    const SegmentDomain above = DomainFromCorners(
-      outer, inner.Cubes, CornersAbove(outer, inner.Layout), execution.Part(0.7, 1.0));
+    const SegmentDomain other = above(execution.Part(0.7, 1.0));
     // Where neither makes sound blocks, the surface's own domain fits at least the surface.
     const double least = std::max(ownQuality, 0.0);
-    return LeastJacobian(ShellBlocks(above, inner)) > least ? above : own;
+    return LeastJacobian(ShellBlocks(other, inner)) > least ? other : own;
   }
   catch (const std::invalid_argument&) // two corners in one place, or mirrored
   {

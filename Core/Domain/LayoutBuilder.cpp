@@ -115,7 +115,10 @@ void LayoutBuilder::Straighten(double stretch, const Execution& execution)
     for (std::size_t border = 0; border < this->Borders.size(); ++border)
     {
       execution.Check((round + double(border) / double(this->Borders.size())) / Rounds);
-      length += this->StraightenBorder(static_cast<Index>(border), first, stretch);
+      if (this->Fixed.count(static_cast<Index>(border)) == 0)
+      {
+        length += this->StraightenBorder(static_cast<Index>(border), first, stretch);
+      }
     }
     if (length >= Worthwhile * before)
     {

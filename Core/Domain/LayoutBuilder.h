@@ -7,6 +7,8 @@
 #include "PathTracing.h"
 #include "SurfaceLayout.h"
 
+#include <set>
+
 namespace trivariate
 {
 /// The number of a border in `Borders` is its mark in `Mesh`.
@@ -18,8 +20,8 @@ public:
   {
   }
 
-  /// Replaces stretches of all borders, at most so long, by geodesics between the same points
-  /// within the union of the patches on their two sides, in rounds.
+  /// Replaces stretches of all borders but the fixed ones, at most so long, by geodesics between
+  /// the same points within the union of the patches on their two sides, in rounds.
   void Straighten(double stretch, const Execution& execution);
 
   /// Fills the patches from both sides of all borders. Throws std::runtime_error naming a patch
@@ -30,6 +32,7 @@ public:
   std::vector<Index> Corners; // points
   std::vector<ChartLabel> PatchLabels;
   std::vector<LayoutBorder> Borders; // all but their points, which marks in the mesh tell
+  std::set<Index> Fixed;             // borders that stay where they are
 
 private:
   std::vector<Index> PointsOf(Index border) const;

@@ -388,10 +388,11 @@ SegmentDomain FindDomain(
 
 //------------------------------------------------------------------------------
 SegmentDomain DomainFromCorners(const SurfaceMesh& mesh, const Polycube& polycube,
-  const std::vector<Vector3d>& picked, const Execution& execution, double farthest)
+  const std::vector<Vector3d>& picked, const Execution& execution, double farthest,
+  const std::vector<GivenBorder>& given)
 {
-  SegmentDomain domain{ LayoutFromCorners(mesh, polycube, picked, execution, farthest), polycube,
-    {}, 0.0 };
+  SegmentDomain domain{ LayoutFromCorners(mesh, polycube, picked, execution, farthest, given),
+    polycube, {}, 0.0 };
   RefuseInvalid(CheckLayout(domain.Layout, polycube));
   domain.Places = PlacesOf(domain.Layout, polycube);
   const Matrix3d frame = BestFrame(domain.Layout);

@@ -52,7 +52,8 @@ SegmentDomain FindDomain(
  */
 SegmentDomain DomainFromCorners(const SurfaceMesh& mesh, const Polycube& polycube,
   const std::vector<Eigen::Vector3d>& picked, const Execution& execution,
-  double farthest = std::numeric_limits<double>::infinity());
+  double farthest = std::numeric_limits<double>::infinity(),
+  const std::vector<GivenBorder>& given = {});
 }
 
 #endif

@@ -46,9 +46,18 @@ struct SurfaceLayout
 SurfaceLayout LayoutFromCharts(const SurfaceMesh& mesh, const std::vector<ChartLabel>& labels,
   const Execution& execution, double stretch = std::numeric_limits<double>::infinity());
 
+/// A border whose course is given.
+struct GivenBorder
+{
+  Index Edge;                ///< of the polycube
+  std::vector<Index> Points; ///< along edges of the mesh, from where the edge begins to its end
+};
+
 /**
  * From one place for each corner of a polycube, which is moved to the nearest point of the surface.
- * Patches are the faces of the polycube, borders its edges, in its order.
+ * Patches are the faces of the polycube, borders its edges, in its order. Borders that are given
+ * stay as they are, and their ends are the corners there; they must be disjoint but for corners,
+ * and leave no other corner between them and a face that they close.
  *
  * First a spanning tree of the edges is traced, shortest first, then the other edges, shortest
  * first, each in its place in the cyclic order around its corners. On a surface without handles
@@ -62,7 +71,8 @@ SurfaceLayout LayoutFromCharts(const SurfaceMesh& mesh, const std::vector<ChartL
  */
 SurfaceLayout LayoutFromCorners(const SurfaceMesh& mesh, const Polycube& polycube,
   const std::vector<Eigen::Vector3d>& corners, const Execution& execution,
-  double farthest = std::numeric_limits<double>::infinity());
+  double farthest = std::numeric_limits<double>::infinity(),
+  const std::vector<GivenBorder>& given = {});
 }
 
 #endif

@@ -304,7 +304,44 @@ TEST(DomainShell, TurnsACubeInAllWays)
   EXPECT_EQ(turns, 24);
 }
 
-TEST(DomainShell, RefusesWhatIsNotOneCube)
+// An L and what lies within three voxels of it.
+TEST(DomainShell, GoesAroundSeveralCubes)
+{
+  const auto inside = [](int i, int j, int k) {
+    return std::min({ i, j, k }) >= 0 && i < 12 && j < 12 && k < 6 && (i < 6 || j < 6);
+  };
+  std::vector<LatticePoint> voxels;
+  for (int i = -3; i < 15; ++i)
+  {
+    for (int j = -3; j < 15; ++j)
+    {
+      for (int k = -3; k < 9; ++k)
+      {
+        bool near = false;
+        for (int n = 0; n < 343; ++n)
+        {
+          near = near || inside(i + n % 7 - 3, j + n / 7 % 7 - 3, k + n / 49 - 3);
+        }
+        if (near)
+        {
+          voxels.push_back({ i, j, k });
+        }
+      }
+    }
+  }
+  const SegmentDomain inner = Voxels(Polycube::FromGrid({ 2, 2, 1 }, { 1, 1, 1, 0 }), 6.0, 6);
+  const SegmentDomain outer =
+    DomainAround(SurfaceOf(Polycube(voxels), 1), inner, DomainOptions(), Execution());
+  EXPECT_EQ(outer.Cubes.Cubes, inner.Cubes.Cubes);
+  EXPECT_EQ(CheckLayout(outer.Layout, outer.Cubes), std::vector<std::string>());
+  const DomainBlocks shell = ShellBlocks(outer, inner);
+  ASSERT_EQ(shell.Places.size(), 32u);
+  ASSERT_EQ(shell.Blocks.size(), 14u);
+  ExpectConforming(shell, 28);
+  EXPECT_GT(Least(shell), 0.3);
+}
+
+TEST(DomainShell, RefusesDifferentPolycubes)
 {
   const SegmentDomain one = Voxels(Polycube::FromGrid({ 1, 1, 1 }), 6.0, 6);
   const SegmentDomain two = Voxels(Polycube::FromGrid({ 1, 1, 2 }), 6.0, 6);
