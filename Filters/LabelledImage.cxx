@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -95,29 +94,37 @@ void Copy(vtkDataArray* array, const LabelledImage& image, Index count, const Ch
 }
 
 //------------------------------------------------------------------------------
-// The labels that occur, and how many faces lie between different ones.
-std::set<int> CountLabels(const LabelVolume& labels, Index& faces)
+// How many faces of voxels lie between different labels or at the border of the volume, at most.
+double CountFaces(const LabelVolume& labels)
 {
-  std::set<int> present;
-  faces = 0;
   const auto& n = labels.Size;
   const std::int32_t* p = labels.Labels;
+  Index faces = n[0] * n[1] + n[1] * n[2] + n[2] * n[0];
   for (Index k = 0; k < n[2]; ++k)
   {
     for (Index j = 0; j < n[1]; ++j)
     {
       for (Index i = 0; i < n[0]; ++i, ++p)
       {
-        const bool changes = i == 0 || p[0] != p[-1];
-        faces += changes + (j == 0 || p[0] != p[-n[0]]) + (k == 0 || p[0] != p[-n[0] * n[1]]);
-        if (changes)
-        {
-          present.insert(*p);
-        }
+        faces += (i == 0 || p[0] != p[-1]) + (j == 0 || p[0] != p[-n[0]]) +
+                 (k == 0 || p[0] != p[-n[0] * n[1]]);
       }
     }
   }
-  faces += n[0] * n[1] + n[1] * n[2] + n[2] * n[0];
+  return static_cast<double>(faces);
+}
+
+// The labels that occur.
+std::set<int> LabelsOf(const std::vector<std::int32_t>& labels)
+{
+  std::set<int> present;
+  for (std::size_t id = 0; id < labels.size(); ++id)
+  {
+    if (id == 0 || labels[id] != labels[id - 1])
+    {
+      present.insert(labels[id]);
+    }
+  }
   return present;
 }
 }
@@ -229,7 +236,7 @@ bool GatherLabels(LabelledImage& image, std::string& fault, vtkMultiProcessContr
 }
 
 //------------------------------------------------------------------------------
-void CheckLabels(const LabelledImage& image, const std::vector<int>& wanted)
+std::set<int> CheckSegments(const LabelledImage& image, const std::vector<int>& wanted)
 {
   const LabelVolume labels = image.View();
   if (*std::min_element(labels.Size.begin(), labels.Size.end()) < 2)
@@ -239,13 +246,7 @@ void CheckLabels(const LabelledImage& image, const std::vector<int>& wanted)
          << " points; a volume needs two or more along each axis.";
     throw std::invalid_argument(text.str());
   }
-  Index faces = 0;
-  const std::set<int> present = CountLabels(labels, faces);
-  if (present.size() == 1)
-  {
-    throw std::invalid_argument("All voxels have the label " + std::to_string(*present.begin()) +
-                                "; a boundary lies between two segments.");
-  }
+  const std::set<int> present = LabelsOf(image.Labels);
   for (int segment : wanted)
   {
     if (present.count(segment) == 0)
@@ -256,7 +257,19 @@ void CheckLabels(const LabelledImage& image, const std::vector<int>& wanted)
                                   std::to_string(*present.rbegin()) + ".");
     }
   }
-  const std::string fault = MemoryFault("The surface", BytesPerFace * faces);
+  return present;
+}
+
+//------------------------------------------------------------------------------
+void CheckLabels(const LabelledImage& image, const std::vector<int>& wanted)
+{
+  const std::set<int> present = CheckSegments(image, wanted);
+  if (present.size() == 1)
+  {
+    throw std::invalid_argument("All voxels have the label " + std::to_string(*present.begin()) +
+                                "; a boundary lies between two segments.");
+  }
+  const std::string fault = MemoryFault("The surface", BytesPerFace * CountFaces(image.View()));
   if (!fault.empty())
   {
     throw std::invalid_argument(fault);

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -53,8 +54,12 @@ LabelledImage ReadLabels(vtkImageData* image, vtkDataArray* labels, vtkDataArray
 /// Collective: process 0 gets the whole, the others nothing. As GatherSamples.
 bool GatherLabels(LabelledImage& image, std::string& fault, vtkMultiProcessController* controller);
 
-/// Throws std::invalid_argument where there is no surface between two segments, no such segment as
-/// wanted, or too much of a surface for the memory.
+/// The labels that occur. Throws std::invalid_argument where the image is one voxel thick, or a
+/// wanted segment does not occur.
+std::set<int> CheckSegments(const LabelledImage& image, const std::vector<int>& wanted);
+
+/// Throws std::invalid_argument as CheckSegments, and where there is no surface between two
+/// segments, or too much of a surface for the memory.
 void CheckLabels(const LabelledImage& image, const std::vector<int>& wanted);
 }
 

@@ -35,22 +35,6 @@ double VolumeOf(const std::vector<Eigen::Vector3d>& points, const std::vector<Tr
   return volume;
 }
 
-void CheckCells(vtkPolyData* input)
-{
-  const vtkIdType polygons = input->GetNumberOfPolys();
-  if (polygons == 0)
-  {
-    throw std::invalid_argument("The surface has no triangles.");
-  }
-  if (input->GetNumberOfCells() != polygons ||
-      input->GetPolys()->GetNumberOfConnectivityIds() != 3 * polygons ||
-      input->GetPolys()->GetMaxCellSize() != 3)
-  {
-    throw std::invalid_argument(
-      "The surface has cells other than triangles; make it triangles first (Triangulate).");
-  }
-}
-
 vtkDataArray* LabelArray(vtkPolyData* input)
 {
   vtkDataArray* labels = input->GetCellData()->GetArray("BoundaryLabels");
@@ -102,25 +86,46 @@ std::vector<Eigen::Vector3d> ReadPoints(vtkPointSet* input)
 }
 
 //------------------------------------------------------------------------------
-LabelledSurface ReadSurface(vtkPolyData* input)
+std::vector<Triangle> ReadTriangles(vtkPolyData* input)
 {
-  CheckCells(input);
-  vtkDataArray* labels = LabelArray(input);
-  LabelledSurface surface;
-  surface.Points = ReadPoints(input);
+  const vtkIdType polygons = input->GetNumberOfPolys();
+  if (polygons == 0)
+  {
+    throw std::invalid_argument("The surface has no triangles.");
+  }
+  if (input->GetNumberOfCells() != polygons ||
+      input->GetPolys()->GetNumberOfConnectivityIds() != 3 * polygons ||
+      input->GetPolys()->GetMaxCellSize() != 3)
+  {
+    throw std::invalid_argument(
+      "The surface has cells other than triangles; make it triangles first (Triangulate).");
+  }
+  std::vector<Triangle> triangles;
+  triangles.reserve(polygons);
   vtkCellArray* cells = input->GetPolys();
-  for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
+  for (vtkIdType cell = 0; cell < polygons; ++cell)
   {
     vtkIdType count = 0;
     const vtkIdType* ids = nullptr;
     cells->GetCellAtId(cell, count, ids);
-    surface.Triangles.push_back({ ids[0], ids[1], ids[2] });
-    surface.Labels.push_back({ 1, 0 });
-    if (labels)
-    {
-      surface.Labels.back() = { static_cast<int>(labels->GetComponent(cell, 0)),
-        static_cast<int>(labels->GetComponent(cell, 1)) };
-    }
+    triangles.push_back({ ids[0], ids[1], ids[2] });
+  }
+  return triangles;
+}
+
+//------------------------------------------------------------------------------
+LabelledSurface ReadSurface(vtkPolyData* input)
+{
+  LabelledSurface surface;
+  surface.Triangles = ReadTriangles(input);
+  surface.Points = ReadPoints(input);
+  surface.Labels.assign(surface.Triangles.size(), { 1, 0 });
+  vtkDataArray* labels = LabelArray(input);
+  for (std::size_t t = 0; labels && t < surface.Labels.size(); ++t)
+  {
+    const vtkIdType cell = static_cast<vtkIdType>(t);
+    surface.Labels[t] = { static_cast<int>(labels->GetComponent(cell, 0)),
+      static_cast<int>(labels->GetComponent(cell, 1)) };
   }
   if (!labels && VolumeOf(surface.Points, surface.Triangles) < 0.0)
   {

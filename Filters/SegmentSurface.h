@@ -44,7 +44,11 @@ std::vector<int> SegmentsIn(const LabelledSurface& surface);
 /// the surface is not closed or not two-manifold.
 std::vector<SurfacePiece> PiecesOf(const LabelledSurface& surface, int segment);
 
+/// Throws std::invalid_argument where a point is not finite.
 std::vector<Eigen::Vector3d> ReadPoints(vtkPointSet* input);
+
+/// Throws std::invalid_argument where there are no cells, or others than triangles.
+std::vector<Triangle> ReadTriangles(vtkPolyData* input);
 
 /**
  * Collective: process 0 gets `input` and the pieces of all others, their common points merged; the

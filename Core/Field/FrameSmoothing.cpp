@@ -53,14 +53,17 @@ FrameEnergy VisitBlocks(Index begin, Index end, const Execution& execution, cons
   return sum;
 }
 
-FrameStar Gather(const FrameVoxels& voxels, const FrameList& frames, Index v)
+FrameStar Gather(
+  const FrameVoxels& voxels, const Eigen::Vector3d& weights, const FrameList& frames, Index v)
 {
   FrameStar star;
   star.Own = frames[v].cast<double>().toRotationMatrix();
-  for (const std::int32_t n : voxels.Neighbours[v])
+  for (int side = 0; side < 6; ++side)
   {
+    const std::int32_t n = voxels.Neighbours[v][side];
     if (n >= 0)
     {
+      star.Weights[star.Count] = weights[side / 2];
       star.Neighbours[star.Count++] = frames[n].cast<double>().toRotationMatrix();
     }
   }
@@ -73,11 +76,11 @@ FrameEnergy EnergyOf(const FrameStar& star, bool jumps)
   for (int j = 0; j < star.Count; ++j)
   {
     const Matrix3d r = star.Own * star.Neighbours[j].transpose();
-    energy.Harmonic += 5.0 / 3.0 * (3.0 - r.array().square().square().sum());
+    energy.Harmonic += star.Weights[j] * 5.0 / 3.0 * (3.0 - r.array().square().square().sum());
     const double along =
       jumps ? CubeRotations()[MatchFrames(star.Neighbours[j], star.Own)].cwiseProduct(r).sum()
             : r.trace();
-    energy.Registered += 2.0 * (3.0 - along);
+    energy.Registered += star.Weights[j] * 2.0 * (3.0 - along);
   }
   return energy;
 }
@@ -109,6 +112,7 @@ Quaterniond BestRotation(const SmoothingOptions& options, const FrameStar& star)
 FrameEnergy HalfSweep(const FrameLevel& level, const SmoothingOptions& options, double factor,
   Index begin, Index end, FrameList& frames, const Execution& execution)
 {
+  const Eigen::Vector3d weights = level.Voxels.PairWeights();
   return VisitBlocks(begin, end, execution,
     [&](Index first, Index last)
     {
@@ -117,7 +121,7 @@ FrameEnergy HalfSweep(const FrameLevel& level, const SmoothingOptions& options, 
         [](const FrameBound& b, Index voxel) { return b.Voxel < voxel; });
       for (Index v = first; v < last; ++v)
       {
-        const FrameStar star = Gather(level.Voxels, frames, v);
+        const FrameStar star = Gather(level.Voxels, weights, frames, v);
         if (begin == 0)
         {
           before += EnergyOf(star, options.Jumps);
@@ -156,6 +160,7 @@ SmoothingOptions DefaultSmoothing(const FrameLevel& level)
 FrameEnergy MeasureFrames(
   const FrameLevel& level, const FrameList& frames, bool jumps, const Execution& execution)
 {
+  const Eigen::Vector3d weights = level.Voxels.PairWeights();
   // Each pair has one red voxel.
   return VisitBlocks(0, level.Voxels.Red, execution,
     [&](Index first, Index last)
@@ -163,7 +168,7 @@ FrameEnergy MeasureFrames(
       FrameEnergy energy;
       for (Index v = first; v < last; ++v)
       {
-        energy += EnergyOf(Gather(level.Voxels, frames, v), jumps);
+        energy += EnergyOf(Gather(level.Voxels, weights, frames, v), jumps);
       }
       return energy;
     });

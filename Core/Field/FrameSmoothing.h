@@ -50,10 +50,10 @@ struct SmoothingOptions
   double Drop = 1e-4;  ///< stop when a sweep lowers the energy by less than this share of it
 };
 
-/// Sums over the pairs of neighbours in a level.
+/// Sums over the pairs of neighbours in a level, weighted as FrameVoxels::PairWeights says.
 struct FrameEnergy
 {
-  double Harmonic = 0.0; ///< of 5/3 (3 - sum_kl R_kl^4); times half the spacing: ARFF's energy
+  double Harmonic = 0.0; ///< of 5/3 (3 - sum_kl R_kl^4); times half the mean spacing: ARFF's energy
   double Registered =
     0.0; ///< of |F - F'|^2, with jumps to the closest labels; 2 t^2 for an angle t
 };

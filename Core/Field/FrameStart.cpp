@@ -44,17 +44,19 @@ template <int D>
 using Values = std::vector<Eigen::Matrix<double, D, 1>>;
 
 /**
- * The values that are smoothest (least squares of the differences of neighbours) among those whose
- * voxels differ from the given ones by a vector in their free space: conjugate gradients, until the
- * residual is 1e-9 in the root mean square. release(values) takes from every voxel the part that is
- * not free to change.
+ * The values that are smoothest (least squares of the differences of neighbours, weighted) among
+ * those whose voxels differ from the given ones by a vector in their free space: conjugate
+ * gradients, until the residual is 1e-9 in the root mean square. release(values) takes from every
+ * voxel the part that is not free to change.
  */
 template <int D, typename Release>
 void Smooth(
   const FrameVoxels& voxels, Values<D>& x, const Release& release, const Execution& execution)
 {
   const Index n = voxels.Count();
-  const auto laplacian = [&voxels, n, &execution, &release](const Values<D>& from, Values<D>& to)
+  const Vector3d weights = voxels.PairWeights();
+  const auto laplacian = [&voxels, n, weights, &execution, &release](
+                           const Values<D>& from, Values<D>& to)
   {
     execution.ParallelFor(n,
       [&](Index begin, Index end)
@@ -62,11 +64,12 @@ void Smooth(
         for (Index v = begin; v < end; ++v)
         {
           to[v].setZero();
-          for (const std::int32_t j : voxels.Neighbours[v])
+          for (int side = 0; side < 6; ++side)
           {
+            const std::int32_t j = voxels.Neighbours[v][side];
             if (j >= 0)
             {
-              to[v] += from[v] - from[j];
+              to[v] += weights[side / 2] * (from[v] - from[j]);
             }
           }
         }
@@ -241,10 +244,11 @@ void SmoothCoordinates(const FrameLevel& level, Values<3>& values, const Executi
   Smooth<3>(level.Voxels, values, release, execution);
 }
 
-// Row a: the gradient of coordinate a by central differences, one-sided at the boundary.
+// Row a: the gradient of coordinate a in space by central differences, one-sided at the boundary.
 Matrix3d GradientsAt(const FrameVoxels& voxels, const Values<3>& values, Index v)
 {
-  Matrix3d gradients = Matrix3d::Zero();
+  Matrix3d gradients = Matrix3d::Zero(); // by steps
+
   for (int a = 0; a < 3; ++a)
   {
     const std::int32_t low = voxels.Neighbours[v][2 * a], high = voxels.Neighbours[v][2 * a + 1];
@@ -255,7 +259,7 @@ Matrix3d GradientsAt(const FrameVoxels& voxels, const Values<3>& values, Index v
         (values[high >= 0 ? high : v] - values[low >= 0 ? low : v]) / static_cast<double>(apart);
     }
   }
-  return gradients;
+  return gradients * voxels.Steps.inverse();
 }
 }
 
@@ -266,8 +270,8 @@ FrameList ConstantFrames(const FrameLevel& level)
   const auto place = [&level](Index v)
   {
     const std::array<Index, 3> p = level.Voxels.Place(v);
-    return Vector3d(
-      static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2]));
+    return Vector3d(level.Voxels.Steps * Vector3d(static_cast<double>(p[0]),
+                                           static_cast<double>(p[1]), static_cast<double>(p[2])));
   };
   Vector3d centre = Vector3d::Zero();
   for (Index v = 0; v < n; ++v)
@@ -281,7 +285,20 @@ FrameList ConstantFrames(const FrameLevel& level)
   }
   Matrix3d frame = Eigen::SelfAdjointEigenSolver<Matrix3d>(moment).eigenvectors().transpose();
   frame.row(2) = frame.row(0).cross(frame.row(1));
-  FrameList frames(n, Eigen::Quaterniond(frame).cast<float>());
+  // Named as the constraints would have it.
+  Matrix3d wanted = Matrix3d::Zero();
+  for (const FrameBound& bound : level.Bounds)
+  {
+    if (bound.What == FrameBound::Kind::Axis)
+    {
+      wanted += bound.Axis.cast<double>() * bound.Normal.cast<double>().transpose();
+    }
+  }
+  const auto fit = [&frame, &wanted](const Matrix3d& label)
+  { return (label * frame).cwiseProduct(wanted).sum(); };
+  const Matrix3d label = *std::max_element(CubeRotations().begin(), CubeRotations().end(),
+    [&fit](const Matrix3d& a, const Matrix3d& b) { return fit(a) < fit(b); });
+  FrameList frames(n, Eigen::Quaterniond(Matrix3d(label * frame)).cast<float>());
   ApplyBounds(level, frames);
   return frames;
 }

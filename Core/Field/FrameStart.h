@@ -15,7 +15,8 @@
 
 namespace trivariate
 {
-/// The principal axes of the segment everywhere (the bound frames turned onto their constraints).
+/// The principal axes of the segment everywhere, named as fits labels best; the bound frames are
+/// turned onto their constraints.
 FrameList ConstantFrames(const FrameLevel& level);
 
 struct HarmonicFrames

@@ -60,31 +60,32 @@ Matrix3d PolarRotation(const Matrix3d& m)
 }
 
 // The derivatives of sum_c sum_k (E c)_k^4 in the rotation vector of E at the identity, from the
-// sums of the fourth-degree products of the coordinates of the directions c.
+// weighted sums of the fourth-degree products of the coordinates of the directions c.
 struct QuarticForm
 {
   double X4 = 0, Y4 = 0, Z4 = 0, Y2Z2 = 0, X2Z2 = 0, X2Y2 = 0;
   double X3Y = 0, X3Z = 0, Y3X = 0, Y3Z = 0, Z3X = 0, Z3Y = 0;
   double X2YZ = 0, Y2XZ = 0, Z2XY = 0;
 
-  void Add(double x, double y, double z)
+  void Add(double weight, double x, double y, double z)
   {
     const double xx = x * x, yy = y * y, zz = z * z, xy = x * y, xz = x * z, yz = y * z;
-    this->X4 += xx * xx;
-    this->Y4 += yy * yy;
-    this->Z4 += zz * zz;
-    this->Y2Z2 += yy * zz;
-    this->X2Z2 += xx * zz;
-    this->X2Y2 += xx * yy;
-    this->X3Y += xx * xy;
-    this->X3Z += xx * xz;
-    this->Y3X += yy * xy;
-    this->Y3Z += yy * yz;
-    this->Z3X += zz * xz;
-    this->Z3Y += zz * yz;
-    this->X2YZ += xx * yz;
-    this->Y2XZ += yy * xz;
-    this->Z2XY += zz * xy;
+    const double wxx = weight * xx, wyy = weight * yy, wzz = weight * zz;
+    this->X4 += wxx * xx;
+    this->Y4 += wyy * yy;
+    this->Z4 += wzz * zz;
+    this->Y2Z2 += wyy * zz;
+    this->X2Z2 += wxx * zz;
+    this->X2Y2 += wxx * yy;
+    this->X3Y += wxx * xy;
+    this->X3Z += wxx * xz;
+    this->Y3X += wyy * xy;
+    this->Y3Z += wyy * yz;
+    this->Z3X += wzz * xz;
+    this->Z3Y += wzz * yz;
+    this->X2YZ += wxx * yz;
+    this->Y2XZ += wyy * xz;
+    this->Z2XY += wzz * xy;
   }
 
   // 4 sum c x c^3
@@ -111,9 +112,11 @@ struct QuarticForm
 Quaterniond MeanRotation(const FrameStar& star)
 {
   Matrix3d sum = Matrix3d::Zero();
+  double weight = 0.0;
   for (int j = 0; j < star.Count; ++j)
   {
-    sum += star.Neighbours[j];
+    sum += star.Weights[j] * star.Neighbours[j];
+    weight += star.Weights[j];
   }
   // tr(E A) has the gradient of A's skew part and the Hessian sym(A) - tr(A) I.
   Matrix3d a = star.Own * sum.transpose();
@@ -123,7 +126,7 @@ Quaterniond MeanRotation(const FrameStar& star)
     const Vector3d g(a(1, 2) - a(2, 1), a(2, 0) - a(0, 2), a(0, 1) - a(1, 0));
     Matrix3d h = 0.5 * (a + a.transpose());
     h.diagonal().array() -= a.trace();
-    const Vector3d step = NewtonStep(g, h, 2.0 * star.Count);
+    const Vector3d step = NewtonStep(g, h, 2.0 * weight);
     const Quaterniond turn = RotationBy(step);
     rotation = turn * rotation;
     if (step.squaredNorm() < 1e-6) // Newton's next step would be of the order of its square
@@ -143,7 +146,7 @@ Quaterniond RegistrationRotation(const FrameStar& star)
   {
     // The neighbours' ends that are closest to the end of each axis; opposite ends agree.
     Matrix3d sum = Matrix3d::Zero();
-    Vector3d count = Vector3d::Zero();
+    Vector3d weights = Vector3d::Zero();
     for (int j = 0; j < star.Count; ++j)
     {
       const Matrix3d r = rotation * star.Own * star.Neighbours[j].transpose();
@@ -151,15 +154,15 @@ Quaterniond RegistrationRotation(const FrameStar& star)
       {
         int axis;
         r.col(l).cwiseAbs().maxCoeff(&axis);
-        sum.col(axis) += (r(axis, l) > 0.0 ? 1.0 : -1.0) * r.col(l);
-        count[axis] += 1.0;
+        sum.col(axis) += (r(axis, l) > 0.0 ? 1.0 : -1.0) * star.Weights[j] * r.col(l);
+        weights[axis] += star.Weights[j];
       }
     }
     // The map of the axes onto the means of their partners; its rotation moves the frame.
     for (int axis = 0; axis < 3; ++axis)
     {
       sum.col(axis) =
-        count[axis] > 0.0 ? Vector3d(sum.col(axis) / count[axis]) : Vector3d::Unit(axis);
+        weights[axis] > 0.0 ? Vector3d(sum.col(axis) / weights[axis]) : Vector3d::Unit(axis);
     }
     const Matrix3d turn = PolarRotation(sum).transpose();
     rotation = turn * rotation;
@@ -179,15 +182,17 @@ Quaterniond QuarticRotation(const FrameStar& star)
   {
     const Matrix3d own = rotation.toRotationMatrix() * star.Own;
     QuarticForm form;
+    double weight = 0.0;
     for (int j = 0; j < star.Count; ++j)
     {
+      weight += star.Weights[j];
       const Matrix3d r = own * star.Neighbours[j].transpose();
       for (int l = 0; l < 3; ++l)
       {
-        form.Add(r(0, l), r(1, l), r(2, l));
+        form.Add(star.Weights[j], r(0, l), r(1, l), r(2, l));
       }
     }
-    const Vector3d step = NewtonStep(form.Gradient(), form.Hessian(), 8.0 * star.Count);
+    const Vector3d step = NewtonStep(form.Gradient(), form.Hessian(), 8.0 * weight);
     rotation = RotationBy(step) * rotation;
     if (step.squaredNorm() < 2.5e-3)
     {

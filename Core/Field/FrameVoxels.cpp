@@ -173,14 +173,19 @@ FrameLevel Coarsen(FrameLevel& fine)
   const FrameVoxels& voxels = fine.Voxels;
   FrameLevel coarse;
   std::array<Index, 3> size;
+  std::array<Index, 3>& factors = fine.Factors;
+  const Vector3d lengths = voxels.Steps.colwise().norm();
+  Matrix3d steps = voxels.Steps;
   for (int a = 0; a < 3; ++a)
   {
-    size[a] = (voxels.Size[a] + 1) / 2;
+    factors[a] = lengths[a] < 1.5 * lengths.minCoeff() ? 2 : 1;
+    size[a] = (voxels.Size[a] + factors[a] - 1) / factors[a];
+    steps.col(a) *= static_cast<double>(factors[a]);
   }
-  const auto cellOf = [&voxels, &size](Index voxel)
+  const auto cellOf = [&voxels, &size, &factors](Index voxel)
   {
     const std::array<Index, 3> p = voxels.Place(voxel);
-    return p[0] / 2 + size[0] * (p[1] / 2 + size[1] * (p[2] / 2));
+    return p[0] / factors[0] + size[0] * (p[1] / factors[1] + size[1] * (p[2] / factors[2]));
   };
   std::vector<std::uint8_t> mask(size[0] * size[1] * size[2], 0);
   for (Index v = 0; v < voxels.Count(); ++v)
@@ -188,6 +193,7 @@ FrameLevel Coarsen(FrameLevel& fine)
     mask[cellOf(v)] = 1;
   }
   coarse.Voxels = CollectVoxels(size, mask.data());
+  coarse.Voxels.Steps = steps;
   std::vector<std::int32_t> places(mask.size(), -1);
   for (Index c = 0; c < coarse.Voxels.Count(); ++c)
   {
@@ -355,7 +361,7 @@ FrameList Prolong(const FrameLevel& fine, const FrameLevel& coarse, const FrameL
         for (int a = 0; a < 3; ++a)
         {
           const std::int32_t next = coarse.Voxels.Neighbours[parent][2 * a + place[a] % 2];
-          if (next < 0)
+          if (next < 0 || fine.Factors[a] == 1)
           {
             continue;
           }

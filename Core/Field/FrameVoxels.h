@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * Where frames live: the voxels of a segment, what binds frames at its boundary, and both again on
- * coarser and coarser levels.
+ * coarser and coarser levels. Frames and normals are directions in space; how the grid lies in it,
+ * its steps say.
  *
  * Memory: 32 bytes a voxel of the segment (its number in the grid and its six neighbours), 4 more
  * for its parent, an eighth of that for each coarser level; while it is built, 4 bytes a voxel of
@@ -18,6 +19,7 @@
 #include <Eigen/Geometry>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -33,12 +35,22 @@ using FrameList = std::vector<Eigen::Quaternionf>;
 struct FrameVoxels
 {
   std::array<Index, 3> Size = { 0, 0, 0 }; ///< of the grid
-  Index Red = 0;                           ///< how many of the voxels are red
-  std::vector<Index> Ids;                  ///< i + Size[0] (j + Size[1] k), ascending in a colour
+  /// Column a: from a voxel to the next one along grid axis a, in space. At right angles.
+  Eigen::Matrix3d Steps = Eigen::Matrix3d::Identity();
+  Index Red = 0;          ///< how many of the voxels are red
+  std::vector<Index> Ids; ///< i + Size[0] (j + Size[1] k), ascending in a colour
   /// At -x, +x, -y, +y, -z, +z; -1 outside the segment.
   std::vector<std::array<std::int32_t, 6>> Neighbours;
 
   Index Count() const { return static_cast<Index>(this->Ids.size()); }
+
+  /// What a pair of neighbours along each grid axis counts: the face between them over their
+  /// distance, both in units of the mean spacing; so sums over pairs are integrals in space.
+  Eigen::Vector3d PairWeights() const
+  {
+    const double volume = std::abs(this->Steps.determinant());
+    return std::pow(volume, 2.0 / 3.0) * this->Steps.colwise().squaredNorm().cwiseInverse();
+  }
 
   /// Grid coordinates of a voxel.
   std::array<Index, 3> Place(Index voxel) const
@@ -95,6 +107,8 @@ struct FrameLevel
   std::vector<FrameConstraint> Constraints; ///< ascending in the voxels
   std::vector<FrameBound> Bounds;           ///< one a constrained voxel, ascending
   std::vector<std::int32_t> Parents;        ///< of each voxel on the next level; empty on the last
+  /// How many voxels along each grid axis make one of the next level: 2, or 1 along long steps.
+  std::array<Index, 3> Factors = { 2, 2, 2 };
 
   /// No constraint leaves the axis open.
   bool IsLabelled() const;
@@ -102,9 +116,10 @@ struct FrameLevel
 
 /**
  * Levels from fine to coarse: eight voxels make one, as long as at least `coarsest` voxels are
- * left. Two coarse voxels are neighbours where fine ones of theirs are; normals with equal labels
- * are averaged. The constraints may come in any order; one that names no voxel or is not of unit
- * length within 1e-3 throws std::invalid_argument.
+ * left; where steps differ in length, fewer, until they are about equal. Two coarse voxels are
+ * neighbours where fine ones of theirs are; normals with equal labels are averaged. The constraints
+ * may come in any order; one that names no voxel or is not of unit length within 1e-3 throws
+ * std::invalid_argument.
  */
 std::vector<FrameLevel> MakeFrameLevels(
   FrameVoxels voxels, std::vector<FrameConstraint> constraints, Index coarsest = 300);
