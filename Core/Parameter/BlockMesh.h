@@ -33,6 +33,12 @@ constexpr int CornerAtEnds(int a, int b, int c)
   return 4 * c + (b ? 3 - a : a);
 }
 
+/// The corner of a hexahedron at the other end of an axis.
+constexpr int AcrossAxis(int i, int axis)
+{
+  return axis == 0 ? i ^ 1 : axis == 1 ? i ^ 3 : i ^ 4;
+}
+
 /// The points of a face: its two other axes in ascending order, the first one fastest.
 std::array<Index, 4> FacePoints(const BlockPoints& block, int axis, int side);
 

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BlockMeshing.h"
+
+#include "BlockStart.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trivariate
+{
+namespace
+{
+using Sizes = std::vector<std::array<int, 3>>;
+
+constexpr int CoarsestCells = 4; // along the longest edge
+
+int Longest(const Sizes& sizes)
+{
+  int longest = 1;
+  for (const std::array<int, 3>& n : sizes)
+  {
+    longest = std::max(longest, *std::max_element(n.begin(), n.end()));
+  }
+  return longest;
+}
+
+Sizes Halved(Sizes sizes)
+{
+  for (std::array<int, 3>& n : sizes)
+  {
+    for (int& cells : n)
+    {
+      cells = (cells + 1) / 2;
+    }
+  }
+  return sizes;
+}
+}
+
+//------------------------------------------------------------------------------
+BlockMesh MakeBlockMesh(const BlockDomain& domain, const BlockMeshOptions& options,
+  const Execution& execution, BlockMeshReport* report)
+{
+  std::vector<Sizes> levels{ BlockSizes(
+    domain.Blocks, [&domain](Index a, Index b) { return domain.EdgeLength(a, b); },
+    options.CellLength, options.FewestCells) };
+  while (Longest(levels.back()) > CoarsestCells)
+  {
+    levels.push_back(Halved(levels.back()));
+  }
+  if (report)
+  {
+    report->Start = QualityOf(StartOfBlockMesh(domain, levels.front(), execution), execution);
+  }
+  BlockMesh mesh = StartOfBlockMesh(domain, levels.back(), execution.Part(0.0, 0.1));
+  for (std::size_t level = levels.size(); level-- > 0;)
+  {
+    if (level + 1 < levels.size())
+    {
+      mesh = Resampled(mesh, domain.Blocks, levels[level]);
+    }
+    // Each level is about eight times the work of the one before.
+    const double end = std::pow(0.125, level);
+    Repair(mesh, SlidingNodes(domain, mesh), options.Repair,
+      execution.Part(0.1 + 0.9 * end / 8.0, 0.1 + 0.9 * end));
+  }
+  if (report)
+  {
+    report->End = QualityOf(mesh, execution);
+  }
+  return mesh;
+}
+}

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// The block mesh of a domain: the inverse x(u, v, w) of its parameterization.
+#ifndef trivariate_BlockMeshing_h
+#define trivariate_BlockMeshing_h
+
+#include "BlockRepair.h"
+
+namespace trivariate
+{
+struct BlockMeshOptions
+{
+  double CellLength = 0.0; ///< wanted, in space
+  int FewestCells = 2;     ///< along an edge of a block
+  RepairOptions Repair;
+};
+
+struct BlockMeshReport
+{
+  CellQuality Start; ///< the mesh interpolated at once at the wanted resolution
+  CellQuality End;
+};
+
+/**
+ * Interpolated (BlockStart.h) at a coarse resolution, repaired, refined to twice as many cells
+ * along each edge and repaired again, until cells are as long as wanted.
+ */
+BlockMesh MakeBlockMesh(const BlockDomain& domain, const BlockMeshOptions& options,
+  const Execution& execution, BlockMeshReport* report = nullptr);
+}
+
+#endif

@@ -1,0 +1,262 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BlockRepair.h"
+
+#include "CornerEnergy.h"
+#include "Domain/DomainLayers.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace trivariate
+{
+namespace
+{
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr int MostHalvings = 8;
+constexpr double LongestStep = 1.0; // in wanted lengths
+constexpr double Sharp = 1e-8;      // the regularisation where nothing is inverted
+
+class Sweeper
+{
+public:
+  Sweeper(BlockMesh& mesh, const SlidingNodes& sliding)
+    : Mesh(mesh)
+    , Sliding(sliding)
+    , Cells(mesh)
+    , Targets(CellTargets(mesh, this->Cells))
+  {
+  }
+
+  void Retarget() { this->Targets = CellTargets(this->Mesh, this->Cells); }
+
+  /// One move of each node.
+  void Sweep(double epsilon, const Execution& execution);
+
+  /// Over all corners, of targets.
+  double LeastDeterminant(const Execution& execution) const;
+
+  double Energy(double epsilon, const Execution& execution) const;
+
+private:
+  void Terms(Index node, std::vector<CornerTerm>& terms) const;
+  void Move(Index node, double epsilon, std::vector<CornerTerm>& terms);
+
+  BlockMesh& Mesh;
+  const SlidingNodes& Sliding;
+  BlockCells Cells;
+  std::vector<Vector3d> Targets;
+};
+
+void Sweeper::Terms(Index node, std::vector<CornerTerm>& terms) const
+{
+  terms.clear();
+  for (const BlockCells::Use* use = this->Cells.UsesBegin(node); use != this->Cells.UsesEnd(node);
+       ++use)
+  {
+    const BlockPoints& cell = this->Cells.Cells[use->Cell];
+    const Vector3d& lengths = this->Targets[this->Cells.BlockOf[use->Cell]];
+    terms.push_back(TermOf(this->Mesh.Places, cell, use->Corner, -1, lengths));
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const int corner = AcrossAxis(use->Corner, axis);
+      terms.push_back(TermOf(this->Mesh.Places, cell, corner, axis, lengths));
+    }
+  }
+}
+
+void Sweeper::Move(Index node, double epsilon, std::vector<CornerTerm>& terms)
+{
+  const SlidingNodes::Kind kind = this->Sliding.KindOf(node);
+  if (kind == SlidingNodes::Fixed)
+  {
+    return;
+  }
+  this->Terms(node, terms);
+  double energy = 0.0;
+  Vector3d gradient = Vector3d::Zero();
+  Matrix3d hessian = Matrix3d::Zero();
+  for (const CornerTerm& term : terms)
+  {
+    const EnergyDerivatives e = CornerDerivatives(term.Trace, term.Determinant, epsilon);
+    const Vector3d &t = term.TraceSlope, &c = term.DeterminantSlope;
+    energy += e.Value;
+    gradient += e.ByTrace * t + e.ByDeterminant * c;
+    hessian += e.ByBoth * (t * c.transpose() + c * t.transpose()) +
+               e.ByDeterminantTwice * (c * c.transpose());
+    hessian.diagonal().array() += 2.0 * e.ByTrace * term.TraceCurve;
+  }
+
+  Vector3d& place = this->Mesh.Places[node];
+  Vector3d step = Vector3d::Zero();
+  const int freedom = kind == SlidingNodes::OnBorder ? 1 : kind == SlidingNodes::OnPatch ? 2 : 3;
+  Matrix3d basis;
+  this->Sliding.Allowed(node, place, basis);
+  const auto free = basis.leftCols(freedom);
+  const Eigen::MatrixXd reduced = free.transpose() * hessian * free;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(reduced);
+  const Eigen::VectorXd slope = eigen.eigenvectors().transpose() * (free.transpose() * gradient);
+  const Eigen::VectorXd curve = eigen.eigenvalues().cwiseAbs();
+  const double least = 1e-9 * curve.maxCoeff();
+  step =
+    -free * (eigen.eigenvectors() * slope.cwiseQuotient(curve.cwiseMax(std::max(least, 1e-300))));
+  const Vector3d& lengths = this->Targets[this->Cells.BlockOf[this->Cells.UsesBegin(node)->Cell]];
+  const double longest = LongestStep * lengths.maxCoeff();
+  const double length = step.norm();
+  if (!(length > 0.0) || !std::isfinite(length))
+  {
+    return;
+  }
+  step *= std::min(1.0, longest / length);
+
+  for (int halving = 0; halving < MostHalvings; ++halving, step *= 0.5)
+  {
+    const Vector3d candidate = kind == SlidingNodes::Free
+                                 ? Vector3d(place + step)
+                                 : this->Sliding.Allowed(node, place + step);
+    const Vector3d moved = candidate - place;
+    double there = 0.0;
+    for (const CornerTerm& term : terms)
+    {
+      there += CornerEnergy(term.TraceAt(moved), term.DeterminantAt(moved), epsilon);
+    }
+    if (there < energy * (1.0 - 1e-12))
+    {
+      place = candidate;
+      return;
+    }
+  }
+}
+
+void Sweeper::Sweep(double epsilon, const Execution& execution)
+{
+  for (const std::vector<Index>& nodes : this->Cells.Colours)
+  {
+    execution.ParallelFor(static_cast<Index>(nodes.size()),
+      [&](Index begin, Index end)
+      {
+        std::vector<CornerTerm> terms;
+        for (Index i = begin; i < end; ++i)
+        {
+          this->Move(nodes[i], epsilon, terms);
+        }
+      });
+  }
+}
+
+double Sweeper::LeastDeterminant(const Execution& execution) const
+{
+  std::vector<double> least(this->Cells.Cells.size(), std::numeric_limits<double>::infinity());
+  execution.ParallelFor(static_cast<Index>(least.size()),
+    [&](Index begin, Index end)
+    {
+      for (Index c = begin; c < end; ++c)
+      {
+        for (int corner = 0; corner < 8; ++corner)
+        {
+          const Matrix3d jacobian = CornerJacobian(
+            this->Mesh.Places, this->Cells.Cells[c], corner, this->Targets[this->Cells.BlockOf[c]]);
+          least[c] = std::min(least[c], jacobian.determinant());
+        }
+      }
+    });
+  return *std::min_element(least.begin(), least.end());
+}
+
+double Sweeper::Energy(double epsilon, const Execution& execution) const
+{
+  std::vector<double> energies(this->Cells.Cells.size(), 0.0);
+  execution.ParallelFor(static_cast<Index>(energies.size()),
+    [&](Index begin, Index end)
+    {
+      for (Index c = begin; c < end; ++c)
+      {
+        for (int corner = 0; corner < 8; ++corner)
+        {
+          const Matrix3d jacobian = CornerJacobian(
+            this->Mesh.Places, this->Cells.Cells[c], corner, this->Targets[this->Cells.BlockOf[c]]);
+          energies[c] += CornerEnergy(jacobian.squaredNorm(), jacobian.determinant(), epsilon);
+        }
+      }
+    });
+  return std::accumulate(energies.begin(), energies.end(), 0.0);
+}
+}
+
+//------------------------------------------------------------------------------
+CellQuality QualityOf(const BlockMesh& mesh, const Execution& execution)
+{
+  const BlockCells cells(mesh);
+  const std::size_t n = cells.Cells.size();
+  std::vector<double> jacobians(n), least(n), volumes(n);
+  execution.ParallelFor(static_cast<Index>(n),
+    [&](Index begin, Index end)
+    {
+      for (Index c = begin; c < end; ++c)
+      {
+        jacobians[c] = ScaledJacobian(mesh.Places, cells.Cells[c]);
+        least[c] = LeastDeterminant(mesh.Places, cells.Cells[c]);
+        volumes[c] = HexahedronVolume(mesh.Places, cells.Cells[c]);
+      }
+    });
+  std::vector<double> sum(mesh.Sizes.size(), 0.0), count(mesh.Sizes.size(), 0.0);
+  for (std::size_t c = 0; c < n; ++c)
+  {
+    sum[cells.BlockOf[c]] += volumes[c];
+    ++count[cells.BlockOf[c]];
+  }
+  for (std::size_t c = 0; c < n; ++c)
+  {
+    volumes[c] *= count[cells.BlockOf[c]] / sum[cells.BlockOf[c]];
+  }
+  std::sort(volumes.begin(), volumes.end());
+  CellQuality quality;
+  quality.Cells = static_cast<Index>(n);
+  quality.Inverted = std::count_if(least.begin(), least.end(), [](double d) { return !(d > 0.0); });
+  quality.LeastJacobian = *std::min_element(jacobians.begin(), jacobians.end());
+  quality.MeanJacobian = std::accumulate(jacobians.begin(), jacobians.end(), 0.0) / n;
+  quality.LowRatio = volumes[n / 100];
+  quality.HighRatio = volumes[n - 1 - n / 100];
+  return quality;
+}
+
+//------------------------------------------------------------------------------
+void Repair(BlockMesh& mesh, const SlidingNodes& sliding, const RepairOptions& options,
+  const Execution& execution)
+{
+  sliding.MoveToSurface(mesh.Places, execution);
+  Sweeper sweeper(mesh, sliding);
+  const double all = options.MostUntangling + options.MostSmoothing;
+  double least = sweeper.LeastDeterminant(execution);
+  for (int sweep = 0; sweep < options.MostUntangling && least <= 0.0; ++sweep)
+  {
+    execution.Check(sweep / all);
+    const double epsilon = std::sqrt(1e-6 + 0.04 * least * least);
+    sweeper.Sweep(epsilon, execution);
+    least = sweeper.LeastDeterminant(execution);
+  }
+  if (least > 0.0)
+  {
+    sweeper.Retarget();
+  }
+  const double epsilon = least > 0.0 ? Sharp : std::sqrt(1e-6 + 0.04 * least * least);
+  double energy = sweeper.Energy(epsilon, execution);
+  for (int sweep = 0; sweep < options.MostSmoothing; ++sweep)
+  {
+    execution.Check((options.MostUntangling + sweep) / all);
+    sweeper.Sweep(epsilon, execution);
+    const double after = sweeper.Energy(epsilon, execution);
+    if (after > (1.0 - options.Settled) * energy)
+    {
+      break;
+    }
+    energy = after;
+  }
+}
+}

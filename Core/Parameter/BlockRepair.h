@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// Block meshes without folds.
+#ifndef trivariate_BlockRepair_h
+#define trivariate_BlockRepair_h
+
+#include "BlockCells.h"
+#include "SlidingNodes.h"
+
+namespace trivariate
+{
+struct RepairOptions
+{
+  int MostUntangling = 300; ///< sweeps over all nodes as long as cells are inverted
+  int MostSmoothing = 40;   ///< sweeps afterwards
+  double Settled = 1e-3; ///< smoothing ends when a sweep lowers the energy by less than this share
+};
+
+/// How good the cells of a mesh are.
+struct CellQuality
+{
+  Index Cells = 0;
+  Index Inverted = 0;         ///< LeastDeterminant <= 0
+  double LeastJacobian = 0.0; ///< scaled, see ScaledJacobian in DomainLayers.h
+  double MeanJacobian = 0.0;
+  double LowRatio = 0.0, HighRatio = 0.0; ///< of a cell's volume to its block's mean: 1, 99 percent
+};
+
+CellQuality QualityOf(const BlockMesh& mesh, const Execution& execution);
+
+/**
+ * Moves the nodes of a mesh, each as SlidingNodes lets it, one after the other, to lower the sum of
+ * CornerEnergy over the corners of all cells: first with a regularisation that shrinks until no
+ * cell is inverted, then to make them even. Nodes of one colour move at a time, so that the result
+ * does not depend on threads. Each move is a Newton step with a line search.
+ */
+void Repair(BlockMesh& mesh, const SlidingNodes& sliding, const RepairOptions& options,
+  const Execution& execution);
+}
+
+#endif

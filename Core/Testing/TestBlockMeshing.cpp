@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Domain/DomainShell.h"
+#include "Parameter/BlockMeshing.h"
+#include "Parameter/CornerEnergy.h"
+#include "SegmentSurfaces.h"
+#include "ThreadedExecution.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace trivariate;
+using namespace trivariate_testing;
+
+namespace
+{
+SegmentDomain LaidOut(const Polycube& cubes, double size, int n)
+{
+  std::vector<Vector3d> corners;
+  for (Index i = 0; i < cubes.NumberOfCorners; ++i)
+  {
+    const LatticePoint& p = cubes.Points[i];
+    corners.push_back(size * Vector3d(p[0], p[1], p[2]));
+  }
+  const SurfaceMesh mesh =
+    Moved(SurfaceOf(cubes, n), [size](const Vector3d& p) { return Vector3d(size * p); });
+  return DomainFromCorners(mesh, cubes, corners, Execution());
+}
+
+double VolumeOf(const SurfaceMesh& mesh)
+{
+  double volume = 0.0;
+  for (const Triangle& c : mesh.Triangles)
+  {
+    volume += mesh.Points[c[0]].dot(mesh.Points[c[1]].cross(mesh.Points[c[2]])) / 6.0;
+  }
+  return volume;
+}
+
+double VolumeOf(const BlockMesh& mesh)
+{
+  double volume = 0.0;
+  for (const BlockPoints& cell : BlockCells(mesh).Cells)
+  {
+    volume += HexahedronVolume(mesh.Places, cell);
+  }
+  return volume;
+}
+
+// Nothing inverted, nodes of patches on the surface, all of the volume.
+CellQuality ExpectSound(const BlockDomain& domain, const BlockMesh& mesh, double volume)
+{
+  const CellQuality quality = QualityOf(mesh, Execution());
+  EXPECT_EQ(quality.Inverted, 0);
+  EXPECT_GT(quality.LeastJacobian, 0.0);
+  EXPECT_NEAR(VolumeOf(mesh), volume, 0.015 * volume); // chords of a curved surface
+  const SlidingNodes sliding(domain, mesh);
+  for (std::size_t node = 0; node < mesh.Places.size(); ++node)
+  {
+    const Vector3d& place = mesh.Places[node];
+    EXPECT_LT((sliding.Allowed(node, place) - place).norm(), 1e-9);
+  }
+  return quality;
+}
+}
+
+//------------------------------------------------------------------------------
+TEST(CornerEnergy, HasTheDerivativesOfItsValue)
+{
+  const std::vector<Vector3d> places{ { 0, 0, 0 }, { 2, .1, 0 }, { 2.2, 3, .3 }, { .1, 3, -.2 },
+    { 0, .4, 4 }, { 2.3, 0, 4.1 }, { 2, 3, 4 }, { 0, 2.7, 4.4 } };
+  const BlockPoints cell{ 0, 1, 2, 3, 4, 5, 6, 7 };
+  const Vector3d lengths(1.5, 3.5, 4.0), d(0.3, -0.2, 0.5);
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    for (int axis = -1; axis < 3; ++axis)
+    {
+      const CornerTerm term = TermOf(places, cell, corner, axis, lengths);
+      std::vector<Vector3d> moved = places;
+      moved[axis < 0 ? corner : AcrossAxis(corner, axis)] += d;
+      const Eigen::Matrix3d j = CornerJacobian(moved, cell, corner, lengths);
+      EXPECT_NEAR(term.TraceAt(d), j.squaredNorm(), 1e-12);
+      EXPECT_NEAR(term.DeterminantAt(d), j.determinant(), 1e-12);
+    }
+  }
+  const double h = 1e-5;
+  for (const double epsilon : { 1e-8, 0.1, 1.0 })
+  {
+    for (const double det : { -0.7, 0.05, 0.9, 3.0 })
+    {
+      if (det < 0.0 && epsilon < 0.1)
+      {
+        continue; // almost infinite there
+      }
+      const double trace = 3.4;
+      const auto at = [&](double t, double x) { return CornerEnergy(trace + t, det + x, epsilon); };
+      const EnergyDerivatives e = CornerDerivatives(trace, det, epsilon);
+      EXPECT_DOUBLE_EQ(e.Value, at(0, 0));
+      const double scale = 1.0 + std::abs(e.ByDeterminantTwice);
+      EXPECT_NEAR(e.ByTrace, (at(h, 0) - at(-h, 0)) / (2 * h), 1e-5 * scale);
+      EXPECT_NEAR(e.ByDeterminant, (at(0, h) - at(0, -h)) / (2 * h), 1e-5 * scale);
+      EXPECT_NEAR(
+        e.ByBoth, (at(h, h) - at(h, -h) - at(-h, h) + at(-h, -h)) / (4 * h * h), 1e-4 * scale);
+      EXPECT_NEAR(
+        e.ByDeterminantTwice, (at(0, h) - 2 * at(0, 0) + at(0, -h)) / (h * h), 1e-3 * scale);
+    }
+  }
+}
+
+TEST(BlockMeshing, KeepsABoxAGrid)
+{
+  const SegmentDomain box = LaidOut(Polycube::FromGrid({ 2, 1, 1 }), 6.0, 6);
+  const BlockDomain domain = DomainOfSegment(CubeBlocks(box), box);
+  BlockMeshOptions options;
+  options.CellLength = 1.0;
+  const BlockMesh mesh = MakeBlockMesh(domain, options, Execution());
+  EXPECT_EQ(mesh.NumberOfCells(), 2 * 216);
+  for (const Vector3d& place : mesh.Places)
+  {
+    EXPECT_LT((place - place.array().round().matrix()).norm(), 1e-6);
+  }
+}
+
+TEST(BlockMeshing, FillsManyShapesWithoutFolds)
+{
+  struct Case
+  {
+    std::array<int, 3> Size;
+    std::vector<unsigned char> Present;
+  };
+  for (const Case& c : { Case{ { 1, 1, 1 }, {} }, Case{ { 2, 2, 1 }, { 1, 1, 1, 0 } },
+         Case{ { 3, 2, 1 }, { 1, 1, 1, 0, 1, 0 } }, Case{ { 3, 2, 1 }, { 1, 1, 1, 1, 0, 1 } } })
+  {
+    const Polycube cubes = Polycube::FromGrid(c.Size, c.Present);
+    const SegmentDomain shape = LaidOut(cubes, 10.0, 6);
+    const double volume = 1000.0 * cubes.Cubes.size();
+    BlockMeshOptions options;
+    options.CellLength = 1.5;
+    for (const DomainBlocks& blocks : { CubeBlocks(shape), LayeredBlocks(shape, 2.5, Execution()) })
+    {
+      const BlockDomain domain = DomainOfSegment(blocks, shape);
+      const BlockMesh mesh = MakeBlockMesh(domain, options, Execution());
+      EXPECT_GT(ExpectSound(domain, mesh, volume).LeastJacobian, 0.3);
+    }
+  }
+}
+
+TEST(BlockMeshing, FillsABallOnAnyThreads)
+{
+  const SurfaceMesh surface =
+    Moved(Icosphere(4), [](const Vector3d& p) { return Vector3d(10.0 * p); });
+  const SegmentDomain ball = FindDomain(surface, DomainOptions(), Execution());
+  const BlockDomain domain = DomainOfSegment(LayeredBlocks(ball, 2.5, Execution()), ball);
+  BlockMeshOptions options;
+  options.CellLength = 1.0;
+  BlockMeshReport report;
+  const BlockMesh mesh = MakeBlockMesh(domain, options, Execution(), &report);
+  const CellQuality quality = ExpectSound(domain, mesh, VolumeOf(surface));
+  EXPECT_EQ(report.End.Cells, quality.Cells);
+  EXPECT_GT(quality.LeastJacobian, 0.4);
+  EXPECT_GT(quality.MeanJacobian, 0.93);
+  EXPECT_GT(quality.LowRatio, 0.3);
+  EXPECT_LT(quality.HighRatio, 3.0);
+  EXPECT_EQ(MakeBlockMesh(domain, options, ThreadedExecution(3)).Places, mesh.Places);
+}
+
+TEST(BlockMeshing, FillsAShell)
+{
+  const SurfaceMesh inside =
+    Moved(Icosphere(3), [](const Vector3d& p) { return Vector3d(5.0 * p); });
+  const SurfaceMesh outside =
+    Moved(Icosphere(4), [](const Vector3d& p) { return Vector3d(10.0 * p + Vector3d(1, 0.5, 0)); });
+  const SegmentDomain inner = FindDomain(inside, DomainOptions(), Execution());
+  const SegmentDomain outer = DomainAround(outside, inner, DomainOptions(), Execution());
+  const BlockDomain domain = DomainOfSegment(ShellBlocks(outer, inner), outer, &inner);
+  BlockMeshOptions options;
+  options.CellLength = 1.0;
+  const BlockMesh mesh = MakeBlockMesh(domain, options, Execution());
+  EXPECT_GT(ExpectSound(domain, mesh, VolumeOf(outside) - VolumeOf(inside)).MeanJacobian, 0.9);
+}
