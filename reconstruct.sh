@@ -15,8 +15,8 @@
 #   --control-points N  stop before there are more than N control points; default is 50000
 #   --segments K        also split the volume into K materials by texture and density (0: as many as
 #                       it seems to have), and write segments.vti, boundary.vtp and segments.png;
-#                       and, of segments for which there is a domain of cubes, patches.vtp and
-#                       domain.vtu
+#                       and, of segments for which there is a domain of cubes, patches.vtp,
+#                       domain.vtu and fields.vti, frames aligned with the patches
 set -euo pipefail
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 export BUILD_DIR=${BUILD_DIR:-$source_dir/build}

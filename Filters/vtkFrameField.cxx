@@ -55,9 +55,10 @@ SegmentField MakeField(const LabelledImage& image, int segment, const FrameSurfa
   {
     throw std::invalid_argument("It has no patches; leave it out, or give it a domain.");
   }
-  FrameVoxels voxels = CollectVoxels(image.View().Size, MaskOf(image, segment).data());
+  FrameVoxels voxels =
+    CollectVoxels(image.View().Size, MaskOf(image, segment).data(), execution.Part(0.0, 0.05));
   voxels.Steps = StepsOf(image);
-  SurfaceConstraints bound = ConstrainToSurface(voxels, surface->second, execution.Part(0.0, 0.1));
+  SurfaceConstraints bound = ConstrainToSurface(voxels, surface->second, execution.Part(0.05, 0.1));
   if (bound.Astray > MostAstray)
   {
     throw std::invalid_argument("Of the area of its surface " +

@@ -142,6 +142,10 @@ def segment(path, source, name, count):
     return segmentation
 
 
+def count_domains(layout):
+    return len(set(dataset_adapter.WrapDataObject(output_of(layout, 1)).CellData["Segment"]))
+
+
 def count_segments(segmentation):
     return 1 + int(output_of(segmentation).GetPointData().GetArray("Segment").GetRange()[1])
 
@@ -159,7 +163,7 @@ def bound(path, segmentation):
 
 def lay_out(patches, domain, segmentation):
     """Saves the segments' surfaces cut into patches, and the cubes that are their domains. Tells of
-    segments without a domain, and why. Returns the number of segments with one."""
+    segments without a domain, and why. Returns the filter, or None where there is no domain."""
     whole = simple.SegmentTopology(Input=segmentation)
     layout = simple.PolycubeDomain(Input=simple.SegmentBoundary(Input=whole))
     report_progress(layout)
@@ -177,10 +181,21 @@ def lay_out(patches, domain, segmentation):
     layout.UpdatePipeline()
     cubes = output_of(layout, 1)
     if cubes.GetNumberOfCells() == 0:
-        return 0
+        return None
     for path, port in ((patches, 0), (domain, 1)):
         save(path, simple.OutputPort(layout, port), DataMode="Binary", CompressorType="ZLib")
-    return len(set(dataset_adapter.WrapDataObject(cubes).CellData["Segment"]))
+    return layout
+
+
+def align(path, layout):
+    """Saves the image of which the domains are made, with frames aligned with their patches."""
+    whole = layout.Input.Input
+    field = simple.FrameField(Input=whole, Patches=simple.OutputPort(layout, 0))
+    report_progress(field)
+    field.UpdatePipeline()
+    if output_of(field).GetPointData().GetArray("FrameU") is None:
+        fail("there are no frames, as told above")
+    save(path, field, DataMode="Binary", CompressorType="ZLib")
 
 
 def count_cells(model):
@@ -235,7 +250,7 @@ def main():
     def path(name):
         return os.path.join(options.output, name)
 
-    for old in ("report.json", "patches.vtp", "domain.vtu"):
+    for old in ("report.json", "patches.vtp", "domain.vtu", "fields.vti"):
         if os.path.exists(path(old)):
             os.remove(path(old))  # the first stands for all results; the others may not come anew
     source = step("read", read, options.volume)
@@ -250,7 +265,9 @@ def main():
     if options.segments is not None:
         segments = step("segment", segment, path("segments.vti"), source, name, options.segments)
         boundary = step("boundary", bound, path("boundary.vtp"), segments)
-        domains = step("domain", lay_out, path("patches.vtp"), path("domain.vtu"), segments)
+        layout = step("domain", lay_out, path("patches.vtp"), path("domain.vtu"), segments)
+        if layout:
+            step("frames", align, path("fields.vti"), layout)
         step("segments_picture", picture.save_segments, path("segments.png"), segments, boundary,
              name)
     step("picture", picture.save, path("picture.png"), source, resampled, model, name)
@@ -265,7 +282,7 @@ def main():
         "max_error": maximum,
         "round_trip_rms_density_percent": round_trip_error(image, output_of(resampled), name),
         **({} if options.segments is None else {"segments": count_segments(segments),
-                                                   "domains": domains}),
+                                                   "domains": count_domains(layout) if layout else 0}),
         "seconds": step.seconds,
         "peak_memory_bytes": 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss,
         "model_bytes": os.path.getsize(path("model.tspline")),

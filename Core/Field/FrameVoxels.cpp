@@ -168,7 +168,7 @@ std::vector<FrameConstraint> Average(const std::vector<FrameConstraint>& group)
   return result;
 }
 
-FrameLevel Coarsen(FrameLevel& fine)
+FrameLevel Coarsen(FrameLevel& fine, const Execution& execution)
 {
   const FrameVoxels& voxels = fine.Voxels;
   FrameLevel coarse;
@@ -192,7 +192,7 @@ FrameLevel Coarsen(FrameLevel& fine)
   {
     mask[cellOf(v)] = 1;
   }
-  coarse.Voxels = CollectVoxels(size, mask.data());
+  coarse.Voxels = CollectVoxels(size, mask.data(), execution);
   coarse.Voxels.Steps = steps;
   std::vector<std::int32_t> places(mask.size(), -1);
   for (Index c = 0; c < coarse.Voxels.Count(); ++c)
@@ -205,6 +205,7 @@ FrameLevel Coarsen(FrameLevel& fine)
   {
     fine.Parents[v] = places[cellOf(v)];
   }
+  execution.Check(1.0);
   for (Index v = 0; v < voxels.Count(); ++v)
   {
     for (int side = 0; side < 6; ++side)
@@ -216,6 +217,7 @@ FrameLevel Coarsen(FrameLevel& fine)
       }
     }
   }
+  execution.Check(1.0);
   std::vector<FrameConstraint> lifted = fine.Constraints, averaged;
   for (FrameConstraint& constraint : lifted)
   {
@@ -235,7 +237,8 @@ FrameLevel Coarsen(FrameLevel& fine)
 }
 
 //------------------------------------------------------------------------------
-FrameVoxels CollectVoxels(const std::array<Index, 3>& size, const std::uint8_t* mask)
+FrameVoxels CollectVoxels(
+  const std::array<Index, 3>& size, const std::uint8_t* mask, const Execution& execution)
 {
   FrameVoxels voxels;
   voxels.Size = size;
@@ -253,6 +256,7 @@ FrameVoxels CollectVoxels(const std::array<Index, 3>& size, const std::uint8_t* 
     Index id = 0;
     for (Index k = 0; k < size[2]; ++k)
     {
+      execution.Check(0.4 * colour + 0.4 * static_cast<double>(k) / static_cast<double>(size[2]));
       for (Index j = 0; j < size[1]; ++j)
       {
         for (Index i = 0; i < size[0]; ++i, ++id)
@@ -271,6 +275,7 @@ FrameVoxels CollectVoxels(const std::array<Index, 3>& size, const std::uint8_t* 
     }
   }
   const std::array<Index, 3> stride = { 1, size[0], size[0] * size[1] };
+  execution.Check(0.8);
   voxels.Neighbours.resize(voxels.Ids.size());
   for (Index v = 0; v < voxels.Count(); ++v)
   {
@@ -309,8 +314,8 @@ bool FrameLevel::IsLabelled() const
 }
 
 //------------------------------------------------------------------------------
-std::vector<FrameLevel> MakeFrameLevels(
-  FrameVoxels voxels, std::vector<FrameConstraint> constraints, Index coarsest)
+std::vector<FrameLevel> MakeFrameLevels(FrameVoxels voxels,
+  std::vector<FrameConstraint> constraints, Index coarsest, const Execution& execution)
 {
   for (const FrameConstraint& constraint : constraints)
   {
@@ -331,9 +336,9 @@ std::vector<FrameLevel> MakeFrameLevels(
   std::vector<FrameLevel> levels(1);
   levels[0].Voxels = std::move(voxels);
   SetConstraints(levels[0], std::move(constraints));
-  while (true)
+  for (double rest = 1.0;; rest *= 0.125)
   {
-    FrameLevel coarse = Coarsen(levels.back());
+    FrameLevel coarse = Coarsen(levels.back(), execution.Part(1.0 - rest, 1.0 - 0.125 * rest));
     if (coarse.Voxels.Count() < coarsest)
     {
       levels.back().Parents.clear();

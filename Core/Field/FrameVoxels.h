@@ -62,7 +62,8 @@ struct FrameVoxels
 };
 
 /// The voxels whose mask is not zero. At most 2^31 - 1 of them (std::length_error).
-FrameVoxels CollectVoxels(const std::array<Index, 3>& size, const std::uint8_t* mask);
+FrameVoxels CollectVoxels(const std::array<Index, 3>& size, const std::uint8_t* mask,
+  const Execution& execution = Execution());
 
 /// Any direction of the frame may be the one along the normal.
 constexpr std::int8_t AnyAxis = -1;
@@ -121,8 +122,9 @@ struct FrameLevel
  * may come in any order; one that names no voxel or is not of unit length within 1e-3 throws
  * std::invalid_argument.
  */
-std::vector<FrameLevel> MakeFrameLevels(
-  FrameVoxels voxels, std::vector<FrameConstraint> constraints, Index coarsest = 300);
+std::vector<FrameLevel> MakeFrameLevels(FrameVoxels voxels,
+  std::vector<FrameConstraint> constraints, Index coarsest = 300,
+  const Execution& execution = Execution());
 
 /**
  * The frames of a level from those of the next coarser one, made to fit the constraints: linear

@@ -64,9 +64,10 @@ FrameList StartFrames(
 SegmentField ComputeSegmentField(FrameVoxels voxels, std::vector<FrameConstraint> constraints,
   const FieldOptions& options, const Execution& execution)
 {
-  std::vector<FrameLevel> levels = MakeFrameLevels(std::move(voxels), std::move(constraints));
+  std::vector<FrameLevel> levels =
+    MakeFrameLevels(std::move(voxels), std::move(constraints), 300, execution.Part(0.0, 0.02));
   const double begin = options.CoarseToFine ? 0.1 : 0.5, end = 0.9;
-  CheckHand(levels, execution.Part(0.0, 0.05));
+  CheckHand(levels, execution.Part(0.02, 0.05));
   const int from = options.CoarseToFine ? static_cast<int>(levels.size()) - 1 : 0;
   SegmentField field;
   field.Frames = StartFrames(options.Start, levels, from, execution.Part(0.05, begin));

@@ -10,6 +10,8 @@ namespace trivariate
 namespace
 {
 constexpr Index BlockSize = 4096;
+// Blocks between two looks at the user's abort flag: below a second.
+constexpr Index BlocksInARow = 256;
 
 struct BlockResult
 {
@@ -88,34 +90,46 @@ SingularGraph FindSingularGraph(
     bound[b.Voxel] = boundary ? 0 : 1;
   }
   std::vector<BlockResult> blocks((n + BlockSize - 1) / BlockSize);
-  execution.ParallelFor(static_cast<Index>(blocks.size()),
-    [&](Index begin, Index end)
+  const auto visit = [&](Index number)
+  {
+    BlockResult& block = blocks[number];
+    std::array<std::int32_t, 4> around;
+    std::array<Frame, 4> corners;
+    for (Index v = number * BlockSize; v < std::min(n, (number + 1) * BlockSize); ++v)
     {
-      std::array<std::int32_t, 4> around;
-      for (Index v = begin * BlockSize; v < std::min(n, end * BlockSize); ++v)
+      for (int normal = 0; normal < 3; ++normal)
       {
-        for (int normal = 0; normal < 3; ++normal)
+        if (!VoxelsAround(voxels, v, normal, around) ||
+            std::any_of(
+              around.begin(), around.end(), [&](std::int32_t i) { return bound[i] != 0; }))
         {
-          BlockResult& block = blocks[v / BlockSize];
-          if (!VoxelsAround(voxels, v, normal, around) ||
-              std::any_of(
-                around.begin(), around.end(), [&](std::int32_t i) { return bound[i] != 0; }))
-          {
-            continue;
-          }
-          std::array<Frame, 4> corners;
-          for (int i = 0; i < 4; ++i)
-          {
-            corners[i] = frames[around[i]].cast<double>().toRotationMatrix();
-          }
-          ++block.Plaquettes;
-          if (PlaquetteRotation(corners) != 0)
-          {
-            block.Singular.push_back({ v, normal });
-          }
+          continue;
+        }
+        for (int i = 0; i < 4; ++i)
+        {
+          corners[i] = frames[around[i]].cast<double>().toRotationMatrix();
+        }
+        ++block.Plaquettes;
+        if (PlaquetteRotation(corners) != 0)
+        {
+          block.Singular.push_back({ v, normal });
         }
       }
-    });
+    }
+  };
+  const Index count = static_cast<Index>(blocks.size());
+  for (Index row = 0; row < count; row += BlocksInARow)
+  {
+    execution.Check(static_cast<double>(row) / static_cast<double>(count));
+    execution.ParallelFor(std::min(BlocksInARow, count - row),
+      [&](Index begin, Index end)
+      {
+        for (Index block = begin; block < end; ++block)
+        {
+          visit(row + block);
+        }
+      });
+  }
   SingularGraph graph;
   std::map<std::array<Index, 3>, Index> cubes; // by the voxel at the low corner
   const auto pointAt = [&graph, &cubes](const std::array<Index, 3>& cube)

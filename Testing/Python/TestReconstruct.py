@@ -90,6 +90,13 @@ def test_results():
     assert set(vtk_to_numpy(domain.GetCellData().GetArray("Patch"))) == (
         {-1} | set(vtk_to_numpy(patches.GetArray("Patch"))))
 
+    # And frames of unit length inside.
+    fields = read(vtkXMLImageDataReader(), "fields.vti").GetPointData()
+    inside = vtk_to_numpy(fields.GetArray("Segment")) == 1
+    for axis in "UVW":
+        lengths = numpy.linalg.norm(vtk_to_numpy(fields.GetArray("Frame" + axis)), axis=1)
+        assert numpy.allclose(lengths, inside, atol=1e-6)
+
     picture = vtk_to_numpy(read(vtkPNGReader(), "picture.png").GetPointData().GetScalars())
     assert len(picture) == 1600 * 800
     dark = (picture.reshape(800, 1600, -1)[:, :, :3].min(axis=2) < 240)
