@@ -86,7 +86,10 @@ public:
     {
       try
       {
-        this->LayAround(segment.Segment, outside, filled->second, execution);
+        this->Lay(segment.Segment, outside,
+          DomainAround(outside.Mesh, this->Set.Surfaces[filled->second].Domain,
+            this->Settings.Options, execution),
+          filled->second);
         return;
       }
       catch (const std::runtime_error& error)
@@ -94,12 +97,10 @@ public:
         this->Reasons[segment.Segment] = error.what();
       }
     }
-    // A domain for the cavity alone.
-    DomainOptions oneCube = this->Settings.Options;
-    oneCube.MostCubes = 1;
-    const Index inner = this->Keep(
-      DomainOf(Reversed(inside.Mesh), oneCube, execution.Part(0.0, 0.4)), inside.Origins);
-    this->LayAround(segment.Segment, outside, inner, execution.Part(0.4, 1.0));
+    ShellDomains shell =
+      FindShell(outside.Mesh, Reversed(inside.Mesh), this->Settings.Options, execution);
+    const Index inner = this->Keep(std::move(shell.Inner), inside.Origins);
+    this->Lay(segment.Segment, outside, std::move(shell.Outer), inner);
   }
 
   // Tells of segments that touch and share nothing. `reasons`: why, of some pairs.
@@ -153,11 +154,9 @@ private:
     this->Set.Segments.push_back(std::move(segment));
   }
 
-  void LayAround(int segment, const SurfacePiece& outside, Index inner, const Execution& execution)
+  void Lay(int segment, const SurfacePiece& outside, SegmentDomain domain, Index inner)
   {
-    const SegmentDomain& core = this->Set.Surfaces[inner].Domain;
-    SegmentDomain domain = DomainAround(outside.Mesh, core, this->Settings.Options, execution);
-    DomainBlocks blocks = ShellBlocks(domain, core);
+    DomainBlocks blocks = ShellBlocks(domain, this->Set.Surfaces[inner].Domain);
     const Index outer = this->Keep(std::move(domain), outside.Origins);
     this->Finish({ segment, outer, inner, std::move(blocks) });
     this->OuterOf[outside.Origins] = outer;

@@ -69,7 +69,7 @@ public:
     }
     for (std::size_t i = 0; i < poles.size(); ++i)
     {
-      this->Run.Check(0.2 + 0.6 * i / poles.size());
+      this->Done = 0.2 + 0.6 * i / poles.size();
       this->Try(poles[i][0], poles[i][1]);
     }
     if (this->Most == -2.0)
@@ -82,7 +82,7 @@ public:
       const std::vector<ChartLabel> labels = this->Found.Labels;
       for (ChartLabel low : { 0, 2, 4 })
       {
-        this->Run.Check(0.8 + 0.2 * (round + low / 6.0) / CentringRounds);
+        this->Done = 0.8 + 0.2 * (round + low / 6.0) / CentringRounds;
         this->Try(this->MiddleOf(labels, low), this->MiddleOf(labels, low + 1));
       }
       if (labels == this->Found.Labels)
@@ -101,6 +101,7 @@ private:
     {
       return;
     }
+    this->Run.Check(this->Done);
     const std::vector<CylinderCell> cells = this->CellsOf(this->Cylinder.Map(low, high));
     const std::vector<std::size_t> order = OrderByHeight(cells);
     const Vector3d axis = (this->Mesh.Points[high] - this->Mesh.Points[low]).normalized();
@@ -242,6 +243,7 @@ private:
       this->TurnFrames(0.25 * TwoPi * turn / Turns, trial);
       for (int round = 0; round < 3; ++round)
       {
+        this->Run.Check(this->Done);
         trial.Labels = LabelCylinder(cells, order, this->Areas, this->Rewards(trial));
         this->Refit(trial);
       }
@@ -254,8 +256,8 @@ private:
     KeepLargestPieces(this->Mesh, charts.Labels);
     for (int round = 0; round < 3; ++round)
     {
-      RelabelTowardNormals(
-        this->Mesh, this->Rewards(charts), this->Options.Stiffness, charts.Labels, this->Run);
+      RelabelTowardNormals(this->Mesh, this->Rewards(charts), this->Options.Stiffness,
+        charts.Labels, this->Run.Part(this->Done, this->Done));
       this->Refit(charts);
       charts.Alignment = this->AlignmentOf(charts);
       if (charts.Alignment < this->Most - Hopeless)
@@ -406,6 +408,7 @@ private:
   Vector3d Centre = Vector3d::Zero();
   CubeCharts Found;
   double Most = -2.0; // the value of what was found
+  double Done = 0.0;  // share of the work
 };
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DomainShell.h"
 
+#include "InnerCorners.h"
 #include "InnerPath.h"
 #include "TriangleTree.h"
 
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 namespace trivariate
@@ -19,15 +21,20 @@ using Eigen::Vector3d;
 
 constexpr int MostSteps = 1000;
 constexpr double Arrived = 1e-3; // of the way so far
+// In alignment: of the worst block's ScaledJacobian, and of each block that is inverted.
+constexpr double WorthOfJacobian = 0.2, CostOfInversion = 0.03;
 
-double LeastJacobian(const DomainBlocks& blocks)
+// How well both surfaces are aligned, and how good the blocks between them are.
+double Worth(const SegmentDomain& outer, const SegmentDomain& inner)
 {
+  const DomainBlocks blocks = ShellBlocks(outer, inner);
   double least = std::numeric_limits<double>::infinity();
   for (const DomainBlock& block : blocks.Blocks)
   {
     least = std::min(least, ScaledJacobian(blocks.Places, block.Points));
   }
-  return least;
+  return 0.5 * (outer.Alignment + inner.Alignment) + WorthOfJacobian * std::max(least, 0.0) -
+         CostOfInversion * double(InvertedBlocks(blocks).size());
 }
 
 // Where rays outwards from the corners of the inner surface meet the outer one. No step is longer
@@ -51,6 +58,36 @@ std::vector<Vector3d> CornersAbove(const SurfaceMesh& outer, const SurfaceLayout
     places.push_back(foot.Place);
   }
   return places;
+}
+
+// The points of a surface nearest to the corners of another one.
+std::vector<Vector3d> CornersNear(const SurfaceMesh& surface, const SegmentDomain& domain)
+{
+  const TriangleTree tree(surface.Points, surface.Triangles);
+  std::vector<Vector3d> places;
+  for (const Index corner : domain.Layout.Corners)
+  {
+    places.push_back(tree.Nearest(domain.Layout.Points[corner]).Place);
+  }
+  return places;
+}
+
+// The other domain's polycube with these corners; none where two of them coincide or the surface
+// does not suit it.
+std::optional<SegmentDomain> WithCorners(const SurfaceMesh& surface, const SegmentDomain& other,
+  const std::vector<Vector3d>& corners, const Execution& execution)
+{
+  try
+  {
+    return DomainFromCorners(surface, other.Cubes, corners, execution);
+  }
+  catch (const std::invalid_argument&)
+  {
+  }
+  catch (const std::runtime_error&)
+  {
+  }
+  return std::nullopt;
 }
 }
 
@@ -163,34 +200,46 @@ SegmentDomain TurnedToward(const SegmentDomain& domain, const SegmentDomain& oth
 SegmentDomain DomainAround(const SurfaceMesh& outer, const SegmentDomain& inner,
   const DomainOptions& options, const Execution& execution)
 {
-  const auto above = [&](const Execution& run)
-  { return DomainFromCorners(outer, inner.Cubes, CornersAbove(outer, inner.Layout), run); };
-  if (inner.Cubes.Cubes.size() > 1)
+  std::optional<SegmentDomain> best;
+  if (inner.Cubes.Cubes.size() == 1)
   {
-    try
+    DomainOptions oneCube = options;
+    oneCube.MostCubes = 1;
+    best = TurnedToward(FindDomain(outer, oneCube, execution.Part(0.0, 0.7)), inner);
+  }
+  for (const std::vector<Vector3d>& corners :
+    { CornersAbove(outer, inner.Layout), CornersNear(outer, inner) })
+  {
+    std::optional<SegmentDomain> found =
+      WithCorners(outer, inner, corners, execution.Part(0.7, 1.0));
+    if (found && (!best || Worth(*found, inner) > Worth(*best, inner)))
     {
-      return above(execution);
-    }
-    catch (const std::invalid_argument& error) // two corners in one place, mirrored, handles
-    {
-      throw std::runtime_error(error.what());
+      best = std::move(found);
     }
   }
+  if (!best)
+  {
+    throw std::runtime_error("Around the " + std::to_string(inner.Cubes.Cubes.size()) +
+                             " cubes inside, no domain of as many was found.");
+  }
+  return std::move(*best);
+}
+
+//------------------------------------------------------------------------------
+ShellDomains FindShell(const SurfaceMesh& outer, const SurfaceMesh& inner,
+  const DomainOptions& options, const Execution& execution)
+{
   DomainOptions oneCube = options;
   oneCube.MostCubes = 1;
-  const SegmentDomain own =
-    TurnedToward(FindDomain(outer, oneCube, execution.Part(0.0, 0.7)), inner);
-  const double ownQuality = LeastJacobian(ShellBlocks(own, inner));
-  try
+  const SegmentDomain core = FindDomain(inner, oneCube, execution.Part(0.0, 0.4));
+  ShellDomains shell{ DomainAround(outer, core, options, execution.Part(0.4, 0.8)), core };
+  SegmentDomain own = FindDomain(outer, oneCube, execution.Part(0.8, 0.9));
+  std::optional<SegmentDomain> below =
+    WithCorners(inner, own, CornersNear(inner, own), execution.Part(0.9, 1.0));
+  if (below && Worth(own, *below) > Worth(shell.Outer, shell.Inner))
   {
-    const SegmentDomain other = above(execution.Part(0.7, 1.0));
-    // Where neither makes sound blocks, the surface's own domain fits at least the surface.
-    const double least = std::max(ownQuality, 0.0);
-    return LeastJacobian(ShellBlocks(other, inner)) > least ? other : own;
+    return { std::move(own), std::move(*below) };
   }
-  catch (const std::invalid_argument&) // two corners in one place, or mirrored
-  {
-    return own;
-  }
+  return shell;
 }
 }

@@ -17,9 +17,11 @@ namespace
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double FlatCosine = 0.9;  // of a normal to its axis in a flat part
-constexpr double LeastArea = 0.005; // of a flat part, in those of the surface
-constexpr double LeastWidth = 0.06; // between two planes, in the solid's extents along the axis
+constexpr double FlatCosine = 0.9;      // of a normal to its axis in a flat part
+constexpr double LeastArea = 0.005;     // of a flat part, in those of the surface
+constexpr double LeastTriangles = 24.0; // of a flat part, in mean ones
+constexpr double LeastWidth = 0.06;     // between two planes, in the solid's extents along the axis
+constexpr double LeastEdges = 2.0;      // between two planes, in mean edges
 constexpr double FullTurn = 12.566370614359172;
 
 struct Areas
@@ -43,7 +45,7 @@ struct Areas
 };
 
 // From some starts, so that no poor maximum is taken.
-Matrix3d BestAxes(const Areas& areas)
+Matrix3d BestAxes(const Areas& areas, const Execution& execution)
 {
   const Matrix3d principal = PrincipalFrame(areas.Weights, areas.Centres);
   Matrix3d best = principal;
@@ -51,6 +53,7 @@ Matrix3d BestAxes(const Areas& areas)
   for (const Vector3d& axis :
     { Vector3d(0, 0, 0), Vector3d(0.35, 0.35, 0.35), Vector3d(0.6, 0, 0), Vector3d(0, 0, 0.6) })
   {
+    execution.Check(0.0);
     const Eigen::AngleAxisd turn(
       axis.norm(), axis.norm() > 0.0 ? Vector3d(axis.normalized()) : Vector3d::UnitX().eval());
     const Matrix3d frame =
@@ -89,6 +92,8 @@ std::array<std::vector<Plane>, 3> FlatParts(
   std::vector<int> side(areas.Normals.size());
   std::transform(areas.Normals.begin(), areas.Normals.end(), side.begin(),
     [&frame](const Vector3d& n) { return FlatSide(frame * n); });
+  const double least =
+    areas.Sum * std::max(LeastArea, LeastTriangles / double(areas.Weights.size()));
   std::vector<Index> waiting;
   for (Index seed = 0; seed < mesh.NumberOfTriangles(); ++seed)
   {
@@ -116,7 +121,7 @@ std::array<std::vector<Plane>, 3> FlatParts(
         }
       }
     }
-    if (plane.Area > LeastArea * areas.Sum)
+    if (plane.Area > least)
     {
       planes[own / 2].push_back({ plane.Place / plane.Area, plane.Area });
     }
@@ -124,13 +129,13 @@ std::array<std::vector<Plane>, 3> FlatParts(
   return planes;
 }
 
-// Planes close to each other become one, the closest two first.
-std::vector<double> Merged(std::vector<Plane> planes)
+// Planes close to each other become one, the closest two first. `edge`: the mean one.
+std::vector<double> Merged(std::vector<Plane> planes, double edge)
 {
   const auto lower = [](const Plane& a, const Plane& b) { return a.Place < b.Place; };
   std::sort(planes.begin(), planes.end(), lower);
-  const double least =
-    planes.empty() ? 0.0 : LeastWidth * (planes.back().Place - planes.front().Place);
+  const double extent = planes.empty() ? 0.0 : planes.back().Place - planes.front().Place;
+  const double least = std::max(LeastWidth * extent, LeastEdges * edge);
   while (planes.size() > 2)
   {
     std::size_t closest = 1;
@@ -176,16 +181,17 @@ bool IsInside(const SurfaceMesh& mesh, const Vector3d& point)
 }
 
 //------------------------------------------------------------------------------
-FlatPolycube FindFlatPolycube(const SurfaceMesh& mesh, Index most)
+FlatPolycube FindFlatPolycube(const SurfaceMesh& mesh, Index most, const Execution& execution)
 {
   const Areas areas(mesh);
-  const Matrix3d frame = BestAxes(areas);
+  const Matrix3d frame = BestAxes(areas, execution);
   const std::array<std::vector<Plane>, 3> parts = FlatParts(mesh, areas, frame);
+  const double edge = std::sqrt(4.0 / std::sqrt(3.0) * areas.Sum / double(areas.Weights.size()));
   std::array<std::vector<double>, 3> places;
   Index cells = 1;
   for (int axis = 0; axis < 3; ++axis)
   {
-    places[axis] = Merged(parts[axis]);
+    places[axis] = Merged(parts[axis], edge);
     if (places[axis].size() < 2)
     {
       throw std::runtime_error("The surface has no flat parts on both sides along some axis.");
@@ -199,19 +205,23 @@ FlatPolycube FindFlatPolycube(const SurfaceMesh& mesh, Index most)
       "The flat parts of the surface cut its box into " + std::to_string(cells) + " cells.");
   }
   std::vector<LatticePoint> cubes;
-  const std::array<int, 3> size{ static_cast<int>(places[0].size()) - 1,
-    static_cast<int>(places[1].size()) - 1, static_cast<int>(places[2].size()) - 1 };
-  for (int k = 0; k < size[2]; ++k)
+  LatticePoint cell;
+  Index tested = 0;
+  for (cell[2] = 0; cell[2] + 1 < static_cast<int>(places[2].size()); ++cell[2])
   {
-    for (int j = 0; j < size[1]; ++j)
+    for (cell[1] = 0; cell[1] + 1 < static_cast<int>(places[1].size()); ++cell[1])
     {
-      for (int i = 0; i < size[0]; ++i)
+      for (cell[0] = 0; cell[0] + 1 < static_cast<int>(places[0].size()); ++cell[0])
       {
-        const Vector3d middle(places[0][i] + places[0][i + 1], places[1][j] + places[1][j + 1],
-          places[2][k] + places[2][k + 1]);
-        if (IsInside(mesh, 0.5 * frame.transpose() * middle))
+        execution.Check(double(tested++) / double(cells));
+        Vector3d middle;
+        for (int axis = 0; axis < 3; ++axis)
         {
-          cubes.push_back({ i, j, k });
+          middle[axis] = 0.5 * (places[axis][cell[axis]] + places[axis][cell[axis] + 1]);
+        }
+        if (IsInside(mesh, frame.transpose() * middle))
+        {
+          cubes.push_back(cell);
         }
       }
     }

@@ -22,7 +22,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr int MostRefinement = 2;
-constexpr double StretchInEdges = 3.0; // so far chart borders are straightened
+constexpr Index EnoughTriangles = 20000; // six charts need no more
+constexpr double StretchInEdges = 3.0;   // so far chart borders are straightened
 
 double MeanEdgeLength(const SurfaceMesh& mesh)
 {
@@ -227,8 +228,14 @@ public:
         reasons += std::string(" ") + error.what();
       }
     };
+    Index triangles = this->Mesh.NumberOfTriangles();
     for (int level = 0; this->IsSphere && level <= MostRefinement && !this->Found; ++level)
     {
+      if (level > 0 && triangles > EnoughTriangles)
+      {
+        break;
+      }
+      triangles *= 4;
       attempt([this, level]() { this->TryCubeAndChain(level); });
     }
     attempt([this]() { this->TryFlatPolycube(); });
@@ -317,11 +324,12 @@ private:
 
   void TryFlatPolycube()
   {
-    const FlatPolycube flat = FindFlatPolycube(this->Mesh, this->Options.MostCubes);
+    const FlatPolycube flat =
+      FindFlatPolycube(this->Mesh, this->Options.MostCubes, this->Run.Part(0.75, 0.85));
     if (this->IsWorthwhile(flat.Cubes.NumberOfCorners))
     {
       this->Offer(
-        DomainFromCorners(this->Mesh, flat.Cubes, flat.Corners, this->Run.Part(0.75, 1.0)));
+        DomainFromCorners(this->Mesh, flat.Cubes, flat.Corners, this->Run.Part(0.85, 1.0)));
     }
   }
 
