@@ -21,6 +21,8 @@
 #include "Domain/SurfaceMesh.h"
 #include "Execution.h"
 
+#include <Eigen/Geometry>
+
 #include <functional>
 
 namespace trivariate
@@ -75,9 +77,12 @@ struct ParameterOptions
 /// How the linear system of one parameter was solved.
 struct ParameterSolve
 {
-  int Iterations = 0;     ///< of conjugate gradients, the last round
-  double Residual = 0.0;  ///< relative, at the end
-  double Deviation = 0.0; ///< the largest |u - c| at the middle of a triangle, in grid space
+  int Iterations = 0;    ///< of conjugate gradients, the last round
+  double Residual = 0.0; ///< relative, at the end
+  /// |u - c| over the surface, between the voxels too, in grid space: the largest, and the root of
+  /// the mean square. It is largest along borders in flat parts of the surface, where u would have
+  /// to turn at once.
+  double Deviation = 0.0, MeanDeviation = 0.0;
 };
 
 /// Solved parameters: trilinear between the voxels of the segment and its band.

@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Multigrid.h"
+
+#include "StencilTransfer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace trivariate
+{
+namespace
+{
+// So few unknowns are solved for directly.
+constexpr Index FewUnknowns = 500;
+// Numbers that are worked on by one thread at a time; sums do not depend on the threads.
+constexpr Index ChunkSize = 1 << 16;
+
+template <typename Body>
+void ForEachChunk(Index n, const Execution& execution, const Body& body)
+{
+  execution.Check(0.0);
+  execution.ParallelFor((n + ChunkSize - 1) / ChunkSize,
+    [&](Index first, Index last)
+    {
+      for (Index chunk = first; chunk < last; ++chunk)
+      {
+        body(chunk, chunk * ChunkSize, std::min(n, (chunk + 1) * ChunkSize));
+      }
+    });
+}
+
+double Dot(const std::vector<double>& a, const std::vector<double>& b, const Execution& execution)
+{
+  const Index n = static_cast<Index>(a.size());
+  std::vector<double> sums((n + ChunkSize - 1) / ChunkSize);
+  ForEachChunk(n, execution,
+    [&](Index chunk, Index begin, Index end)
+    {
+      double sum = 0.0;
+      for (Index i = begin; i < end; ++i)
+      {
+        sum += a[i] * b[i];
+      }
+      sums[chunk] = sum;
+    });
+  double total = 0.0;
+  for (const double sum : sums)
+  {
+    total += sum;
+  }
+  return total;
+}
+
+Index UnknownsOf(const StencilMatrix& matrix)
+{
+  Index count = matrix.Planes();
+  for (const StencilMatrix::Run& run : matrix.Runs)
+  {
+    count += run.End - run.Begin;
+  }
+  return count;
+}
+}
+
+//------------------------------------------------------------------------------
+Multigrid::Multigrid(const StencilMatrix& matrix, const Execution& execution)
+  : Finest(matrix)
+{
+  while (UnknownsOf(this->LevelMatrix(this->Coarse.size())) > FewUnknowns)
+  {
+    this->Coarse.push_back(Coarsen(this->LevelMatrix(this->Coarse.size()), execution));
+  }
+  for (std::size_t level = 0; level <= this->Coarse.size(); ++level)
+  {
+    const std::size_t length = this->LevelMatrix(level).Length();
+    this->Levels.push_back({ std::vector<float>(length, 0.0F), std::vector<float>(length, 0.0F),
+      std::vector<float>(level < this->Coarse.size() ? length : 0, 0.0F) });
+  }
+  this->FactorCoarsest();
+}
+
+//------------------------------------------------------------------------------
+void Multigrid::FactorCoarsest()
+{
+  const StencilMatrix& matrix = this->LevelMatrix(this->Coarse.size());
+  const std::vector<std::int32_t> rowOf = matrix.RowOfNodes();
+  std::vector<Index> number(matrix.Length(), -1);
+  for (Index node = 0; node < matrix.Length(); ++node)
+  {
+    if (node >= matrix.Nodes() || rowOf[node] != NoUnknown)
+    {
+      number[node] = static_cast<Index>(this->CoarsestUnknowns.size());
+      this->CoarsestUnknowns.push_back(node);
+    }
+  }
+  const StencilRow common = matrix.CommonStencil();
+  const Index n = static_cast<Index>(this->CoarsestUnknowns.size());
+  Eigen::MatrixXd full = Eigen::MatrixXd::Zero(n, n);
+  for (Index node = 0; node < matrix.Nodes(); ++node)
+  {
+    if (number[node] < 0)
+    {
+      continue;
+    }
+    const StencilRow& row = rowOf[node] == CommonRow ? common : matrix.Rows[rowOf[node]];
+    for (Index d = 0; d < 27; ++d)
+    {
+      const Index other =
+        node + d % 3 - 1 + matrix.Size[0] * (d / 3 % 3 - 1 + matrix.Size[1] * (d / 9 - 1));
+      if (number[other] >= 0)
+      {
+        full(number[node], number[other]) = row[d];
+      }
+    }
+  }
+  for (const StencilMatrix::Link& link : matrix.Links)
+  {
+    const Index plane = number[matrix.Nodes() + link.Plane];
+    full(number[link.Node], plane) = full(plane, number[link.Node]) = link.Value;
+  }
+  for (Index p = 0; p < matrix.Planes(); ++p)
+  {
+    const Index plane = number[matrix.Nodes() + p];
+    full(plane, plane) = matrix.PlaneDiagonal[p];
+  }
+  // Coarse nodes whose few fine ones are also those of others may depend on each other.
+  full.diagonal() *= 1.0 + 1e-6;
+  this->Factor.compute(full);
+}
+
+//------------------------------------------------------------------------------
+void Multigrid::SolveCoarsest()
+{
+  Vectors& vectors = this->Levels.back();
+  const Index n = static_cast<Index>(this->CoarsestUnknowns.size());
+  Eigen::VectorXd b(n);
+  for (Index u = 0; u < n; ++u)
+  {
+    b[u] = vectors.RightHandSide[this->CoarsestUnknowns[u]];
+  }
+  b = this->Factor.solve(b);
+  for (Index u = 0; u < n; ++u)
+  {
+    vectors.Solution[this->CoarsestUnknowns[u]] = static_cast<float>(b[u]);
+  }
+}
+
+//------------------------------------------------------------------------------
+void Multigrid::Cycle(std::size_t level, const Execution& execution)
+{
+  if (level == this->Coarse.size())
+  {
+    this->SolveCoarsest();
+    return;
+  }
+  const StencilMatrix& matrix = this->LevelMatrix(level);
+  const StencilMatrix& coarse = this->Coarse[level];
+  Vectors& here = this->Levels[level];
+  Vectors& below = this->Levels[level + 1];
+  float* x = here.Solution.data();
+  std::fill(here.Solution.begin(), here.Solution.end(), 0.0F);
+  RelaxForward(matrix, here.RightHandSide.data(), x, execution);
+  Residual(matrix, here.RightHandSide.data(), x, here.Residual.data(), execution);
+  Restrict(matrix, coarse, here.Residual.data(), below.RightHandSide.data(), execution);
+  this->Cycle(level + 1, execution);
+  ProlongAdd(matrix, coarse, below.Solution.data(), x, execution);
+  RelaxBackward(matrix, here.RightHandSide.data(), x, execution);
+}
+
+//------------------------------------------------------------------------------
+void Multigrid::Precondition(const double* r, double* z, const Execution& execution)
+{
+  Vectors& top = this->Levels.front();
+  const Index n = this->Finest.Length();
+  ForEachChunk(n, execution,
+    [&](Index, Index begin, Index end)
+    { std::copy(r + begin, r + end, top.RightHandSide.begin() + begin); });
+  this->Cycle(0, execution);
+  ForEachChunk(n, execution,
+    [&](Index, Index begin, Index end)
+    { std::copy(top.Solution.begin() + begin, top.Solution.begin() + end, z + begin); });
+}
+
+//------------------------------------------------------------------------------
+LinearSolve SolveConjugateGradients(const LinearOperator& a, Multigrid& preconditioner,
+  const std::vector<double>& b, double tolerance, int most, std::vector<double>& x,
+  const Execution& execution)
+{
+  LinearSolve solve;
+  const Index n = static_cast<Index>(b.size());
+  const Execution start = execution.Part(0.0, 0.0);
+  std::vector<double> r(n, 0.0), z(n, 0.0), p(n, 0.0);
+  a(x.data(), r.data(), start);
+  ForEachChunk(n, start,
+    [&](Index, Index begin, Index end)
+    {
+      for (Index i = begin; i < end; ++i)
+      {
+        r[i] = b[i] - r[i];
+      }
+    });
+  const double size = std::sqrt(Dot(b, b, start));
+  double before = 1.0, done = 0.0;
+  solve.Residual = size > 0.0 ? std::sqrt(Dot(r, r, start)) / size : 0.0;
+  while (!(solve.Residual <= tolerance))
+  {
+    if (solve.Iterations == most)
+    {
+      std::ostringstream message;
+      message << "The parameterization's linear system is not solved after " << most
+              << " iterations: the residual is " << solve.Residual
+              << " of the right-hand side. Is a part of the segment thinner than a voxel?";
+      throw std::runtime_error(message.str());
+    }
+    done = std::clamp(std::log(solve.Residual) / std::log(tolerance), done, 1.0);
+    const Execution here = execution.Part(done, done);
+    preconditioner.Precondition(r.data(), z.data(), here);
+    const double product = Dot(r, z, here);
+    const double beta = solve.Iterations == 0 ? 0.0 : product / before;
+    before = product;
+    ForEachChunk(n, here,
+      [&](Index, Index begin, Index end)
+      {
+        for (Index i = begin; i < end; ++i)
+        {
+          p[i] = z[i] + beta * p[i];
+        }
+      });
+    a(p.data(), z.data(), here);
+    const double alpha = product / Dot(p, z, here);
+    ForEachChunk(n, here,
+      [&](Index, Index begin, Index end)
+      {
+        for (Index i = begin; i < end; ++i)
+        {
+          x[i] += alpha * p[i];
+          r[i] -= alpha * z[i];
+        }
+      });
+    solve.Residual = std::sqrt(Dot(r, r, here)) / size;
+    ++solve.Iterations;
+  }
+  return solve;
+}
+}

@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VoxelParameter.h"
+
+#include "Domain/ClosestRotation.h"
+#include "MonotoneMap.h"
+#include "Multigrid.h"
+#include "ParameterSystem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace trivariate
+{
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace
+{
+constexpr int MostIterations = 500;
+
+// Of the penalty that holds a parameter to its planes, in parts of what a voxel resists. Ten times
+// as much takes three times as many iterations; a tenth leaves ten times as large deviations.
+constexpr double Stiffness = 100.0;
+
+class Solver
+{
+public:
+  Solver(const ParameterVoxels& voxels, const ParameterSurface& surface,
+    const ParameterOptions& options, const Execution& execution)
+    : Voxels(voxels)
+    , Options(options)
+    , Cells(BoxOfCells(voxels, surface))
+  {
+    std::vector<Index> sampled;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Samples[axis] = SamplePlanes(this->Cells, surface, axis);
+      for (const PlaneSample& sample : this->Samples[axis].Samples)
+      {
+        sampled.push_back(sample.Cell);
+      }
+    }
+    FindCells(voxels, surface, sampled, this->Cells, execution);
+    this->Result.Low = this->Cells.Low;
+    this->Result.Size = this->Cells.Size;
+    this->Result.Spacing = voxels.Spacing;
+    this->Result.Values.assign(3 * this->Cells.Nodes(), 0.0);
+  }
+
+  void SolveAxis(int axis, const Execution& execution)
+  {
+    const Execution start = execution.Part(0.0, 0.0);
+    const PlaneSamples& samples = this->Samples[axis];
+    StencilMatrix matrix;
+    std::vector<double> b;
+    {
+      const TargetField targets = FillTargets(this->Cells, this->Voxels, axis, start);
+      matrix =
+        AssembleMatrix(this->Cells, samples, targets, this->Options.Epsilon, 1.0, Stiffness, start);
+      b =
+        AssembleRightHandSide(this->Cells, targets, this->Options.Epsilon, matrix.Planes(), start);
+    }
+    Multigrid multigrid(matrix, start);
+    std::vector<double> u(matrix.Length(), 0.0);
+    ParameterSolve& record = this->Result.Solves[axis];
+    std::vector<double>& lengths = this->Result.Lengths[axis];
+    this->Result.Coordinates[axis] = samples.Coordinates;
+    const LinearSolve solve =
+      SolveConjugateGradients([&matrix](const double* x, double* y, const Execution& here)
+        { Multiply(matrix, x, y, here); },
+        multigrid, b, this->Options.Tolerance, MostIterations, u, execution.Part(0.1, 1.0));
+    record.Iterations = solve.Iterations;
+    record.Residual = solve.Residual;
+    lengths.assign(1, 0.0);
+    lengths.insert(lengths.end(), u.begin() + matrix.Nodes(), u.end());
+    this->Measure(samples, u, record);
+    for (Index node = 0; node < this->Cells.Nodes(); ++node)
+    {
+      this->Result.Values[3 * node + axis] = u[node];
+    }
+  }
+
+  VoxelParameter Finish()
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const std::vector<double>& lengths = this->Result.Lengths[axis];
+      const std::vector<int>& planes = this->Result.Coordinates[axis];
+      for (std::size_t p = 1; p < planes.size(); ++p)
+      {
+        if (!(lengths[p] > lengths[p - 1]))
+        {
+          std::ostringstream message;
+          message << "The cubes between "
+                  << "uvw"[axis] << " = " << planes[p - 1] << " and " << planes[p] << " come out "
+                  << lengths[p] - lengths[p - 1]
+                  << " long: frames and patches do not belong together, or are left-handed.";
+          throw std::runtime_error(message.str());
+        }
+      }
+      const MonotoneMap map(lengths, std::vector<double>(planes.begin(), planes.end()));
+      for (Index node = 0; node < this->Cells.Nodes(); ++node)
+      {
+        double& value = this->Result.Values[3 * node + axis];
+        value = this->Cells.Known[node] == 0 ? 0.0 : map(value);
+      }
+    }
+    this->Result.Known = std::move(this->Cells.Known);
+    return std::move(this->Result);
+  }
+
+private:
+  void Measure(const PlaneSamples& samples, const std::vector<double>& u, ParameterSolve& record)
+  {
+    record.Deviation = 0.0;
+    double squares = 0.0, weights = 0.0;
+    const std::vector<double> deviations = DeviationsAt(this->Cells, samples, u);
+    for (std::size_t s = 0; s < deviations.size(); ++s)
+    {
+      record.Deviation = std::max(record.Deviation, std::abs(deviations[s]));
+      squares += samples.Samples[s].Weight * deviations[s] * deviations[s];
+      weights += samples.Samples[s].Weight;
+    }
+    record.MeanDeviation = std::sqrt(squares / weights);
+  }
+
+  const ParameterVoxels& Voxels;
+  const ParameterOptions& Options;
+  ParameterCells Cells;
+  std::array<PlaneSamples, 3> Samples;
+  VoxelParameter Result;
+};
+}
+
+//------------------------------------------------------------------------------
+VoxelParameter SolveVoxelParameter(const ParameterVoxels& voxels, const ParameterSurface& surface,
+  const ParameterOptions& options, const Execution& execution)
+{
+  if (!(options.Epsilon > 0.0 && options.Epsilon <= 1.0))
+  {
+    throw std::invalid_argument(
+      "Epsilon is " + std::to_string(options.Epsilon) + "; it must be above 0 and at most 1.");
+  }
+  if (!(options.Tolerance >= 1e-14 && options.Tolerance <= 0.1))
+  {
+    throw std::invalid_argument(
+      "Tolerance is " + std::to_string(options.Tolerance) + "; it must be from 1e-14 to 0.1.");
+  }
+  Solver solver(voxels, surface, options, execution.Part(0.0, 0.05));
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    solver.SolveAxis(axis, execution.Part(0.05 + 0.3 * axis, 0.35 + 0.3 * axis));
+  }
+  return solver.Finish();
+}
+
+//------------------------------------------------------------------------------
+Index VoxelParameter::At(const std::array<Index, 3>& voxel) const
+{
+  Index at[3];
+  for (int a = 0; a < 3; ++a)
+  {
+    at[a] = voxel[a] - this->Low[a];
+    if (at[a] < 0 || at[a] >= this->Size[a])
+    {
+      return -1;
+    }
+  }
+  return at[0] + this->Size[0] * (at[1] + this->Size[1] * at[2]);
+}
+
+//------------------------------------------------------------------------------
+bool VoxelParameter::Evaluate(const Vector3d& point, Vector3d& value, Matrix3d* gradient) const
+{
+  Index low[3];
+  double local[3];
+  for (int a = 0; a < 3; ++a)
+  {
+    const double place = point[a] / this->Spacing[a] - static_cast<double>(this->Low[a]);
+    if (!(place >= 0.0 && place < static_cast<double>(this->Size[a] - 1)))
+    {
+      return false;
+    }
+    low[a] = static_cast<Index>(place);
+    local[a] = place - static_cast<double>(low[a]);
+  }
+  value.setZero();
+  Matrix3d sum = Matrix3d::Zero();
+  for (int c = 0; c < 8; ++c)
+  {
+    const Index node =
+      low[0] + (c & 1) +
+      this->Size[0] * (low[1] + (c >> 1 & 1) + this->Size[1] * (low[2] + (c >> 2)));
+    if (this->Known[node] == 0)
+    {
+      return false;
+    }
+    Vector3d weight, slope;
+    for (int a = 0; a < 3; ++a)
+    {
+      const bool high = (c >> a & 1) != 0;
+      weight[a] = high ? local[a] : 1.0 - local[a];
+      slope[a] = (high ? 1.0 : -1.0) / this->Spacing[a];
+    }
+    const Vector3d corner = Eigen::Map<const Vector3d>(&this->Values[3 * node]);
+    value += weight.prod() * corner;
+    sum += corner * Vector3d(slope[0] * weight[1] * weight[2], weight[0] * slope[1] * weight[2],
+                      weight[0] * weight[1] * slope[2])
+                      .transpose();
+  }
+  if (gradient)
+  {
+    *gradient = sum;
+  }
+  return true;
+}
+}
