@@ -155,26 +155,16 @@ std::array<double, 3> ImageSamples::ToPhysical(const double* parameter) const
 }
 
 //------------------------------------------------------------------------------
-ImageSamples ReadSamples(vtkImageData* image, vtkDataArray* chosen,
-  const std::vector<std::string>& further, const std::string& maskName)
+ImageSamples ReadArrays(vtkImageData* image, const std::vector<vtkDataArray*>& arrays)
 {
   ImageSamples samples;
-  const std::vector<vtkDataArray*> arrays = AttributeArrays(image, chosen, further);
-  vtkDataArray* mask = MaskOf(image, maskName);
   image->GetExtent(samples.Extent.data());
   const double* matrix = image->GetIndexToPhysicalMatrix()->GetData();
   std::copy_n(matrix, 16, samples.IndexToPhysical.begin());
   for (vtkDataArray* array : arrays)
   {
     CheckTuples(image, array);
-    const std::string name = NameOf(array);
-    if (IsTSplineArrayName(name))
-    {
-      throw std::invalid_argument(
-        "The array \"" + name +
-        "\" has the name of an array that every T-spline grid has; rename it first.");
-    }
-    samples.Attributes.push_back({ name, array->GetNumberOfComponents() });
+    samples.Attributes.push_back({ NameOf(array), array->GetNumberOfComponents() });
   }
   const Index count = samples.Count();
   CheckMemory(2.0 * count * samples.Components()); // the samples and the core's residual
@@ -185,6 +175,25 @@ ImageSamples ReadSamples(vtkImageData* image, vtkDataArray* chosen,
     Copy(array, blocks);
     blocks += count * array->GetNumberOfComponents();
   }
+  return samples;
+}
+
+//------------------------------------------------------------------------------
+ImageSamples ReadSamples(vtkImageData* image, vtkDataArray* chosen,
+  const std::vector<std::string>& further, const std::string& maskName)
+{
+  const std::vector<vtkDataArray*> arrays = AttributeArrays(image, chosen, further);
+  vtkDataArray* mask = MaskOf(image, maskName);
+  for (vtkDataArray* array : arrays)
+  {
+    if (IsTSplineArrayName(NameOf(array)))
+    {
+      throw std::invalid_argument(
+        "The array \"" + NameOf(array) +
+        "\" has the name of an array that every T-spline grid has; rename it first.");
+    }
+  }
+  ImageSamples samples = ReadArrays(image, arrays);
   if (mask)
   {
     CheckTuples(image, mask);
@@ -194,7 +203,7 @@ ImageSamples ReadSamples(vtkImageData* image, vtkDataArray* chosen,
                                   std::to_string(mask->GetNumberOfComponents()) +
                                   " components; one is needed.");
     }
-    samples.Mask.resize(count);
+    samples.Mask.resize(samples.Count());
     const auto values = vtk::DataArrayValueRange<1>(mask);
     std::transform(values.begin(), values.end(), samples.Mask.begin(),
       [](double value) { return static_cast<std::uint8_t>(value != 0.0); });

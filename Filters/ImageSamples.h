@@ -39,6 +39,10 @@ struct ImageSamples
   std::array<double, 3> ToPhysical(const double* parameter) const;
 };
 
+/// Copies point arrays of an image, under their own names. Throws std::invalid_argument with a
+/// sentence for the user: an array of another length, too little memory.
+ImageSamples ReadArrays(vtkImageData* image, const std::vector<vtkDataArray*>& arrays);
+
 /**
  * Copies the point arrays of an image: the chosen one and those with further names, each once, and
  * the mask unless its name is empty or "None". An array without a name is called ImageScalars.

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTSplineSource.h"
 
-#include "TSpline/BezierMesh.h"
 #include "SMPExecution.h"
+#include "SegmentPoints.h"
+#include "TSpline/BezierMesh.h"
 #include "TSplineCells.h"
 #include "TSplineGrid.h"
 #include "TSplinePoints.h"
@@ -178,6 +179,20 @@ void vtkTSplineSource::Evaluate(
   const trivariate::BezierMesh mesh(model.Spline, execution.Part(0.0, 0.2));
   const trivariate::TSplineView view{ model, mesh, this->ComputeGradients, this->ComputeJacobian };
   const trivariate::Execution rest = execution.Part(0.2, 1.0);
+  const auto fill = [&view, pointsInfo, output](const trivariate::Execution& part)
+  {
+    vtkDataSet* points = vtkDataSet::SafeDownCast(output);
+    if (trivariate::SegmentsOf(view.Model).size() > 1)
+    {
+      vtkDataSet* labelled = pointsInfo ? vtkDataSet::GetData(pointsInfo) : nullptr;
+      trivariate::FillPointsOfSegments(
+        view, labelled ? labelled->GetPointData()->GetArray("Segment") : nullptr, points, part);
+    }
+    else
+    {
+      trivariate::FillPoints(view, points, part);
+    }
+  };
   switch (this->OutputType)
   {
     case IMAGE:
@@ -191,12 +206,12 @@ void vtkTSplineSource::Evaluate(
       {
         trivariate::PlaceImage(view, this->Dimensions, image, rest.Part(0.0, 0.1));
       }
-      trivariate::FillPoints(view, image, rest.Part(0.1, 1.0));
+      fill(rest.Part(0.1, 1.0));
       break;
     }
     case POINTS:
       output->ShallowCopy(vtkDataObject::GetData(pointsInfo));
-      trivariate::FillPoints(view, vtkDataSet::SafeDownCast(output), rest);
+      fill(rest);
       break;
     case ISO_SURFACES:
       trivariate::FillSurfaces(

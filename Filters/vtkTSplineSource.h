@@ -13,7 +13,7 @@
  * spline's attributes.
  * Port 1 (optional): for POINTS a vtkDataSet, at whose points the spline is evaluated; for IMAGE a
  * vtkImageData that gives the lattice (extent, origin, spacing, direction; its arrays are not
- * used). Not used otherwise.
+ * used but Segment, see below). Not used otherwise.
  *
  * @par Output
  * Port 0, by OutputType:
@@ -34,6 +34,10 @@
  *   the compact rule, without RootCells or with functions left out under a mask, they are the
  *   regions between the faces of all functions' knots: the Bezier cells themselves;
  * - POINTS: the data set of port 1 with the spline's values at its points.
+ *
+ * The splines of several segments overlap in space. For IMAGE and POINTS the point array Segment of
+ * port 1 tells whose spline counts at a point; without it that of the highest segment that holds
+ * the point does.
  *
  * @par Arrays
  * All floating point arrays are double. Point arrays:

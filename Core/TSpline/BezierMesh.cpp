@@ -388,13 +388,34 @@ void BezierMesh::BuildActive(const TSpline& spline, const Execution& execution)
 //------------------------------------------------------------------------------
 Index BezierMesh::FindCell(double u, double v, double w) const
 {
-  const std::int32_t i = this->FindSpan(0, u);
-  const std::int32_t j = this->FindSpan(1, v);
-  const std::int32_t k = this->FindSpan(2, w);
-  if (i < 0 || j < 0 || k < 0)
+  const double x[3] = { u, v, w };
+  std::array<std::int32_t, 3> span;
+  int atKnot = 0; // bits of the directions in which x is at the low end of its interval
+  for (int a = 0; a < 3; ++a)
   {
-    return Nothing;
+    span[a] = this->FindSpan(a, x[a]);
+    if (span[a] < 0)
+    {
+      return Nothing;
+    }
+    atKnot |= span[a] > 0 && this->Lines[a][span[a]] == x[a] ? 1 << a : 0;
   }
+  std::int32_t cell = this->CellOfSpans(span);
+  for (int down = 1; cell == Nothing && down < 8; ++down)
+  {
+    if ((down & atKnot) == down)
+    {
+      cell = this->CellOfSpans(
+        { span[0] - (down & 1), span[1] - (down >> 1 & 1), span[2] - (down >> 2) });
+    }
+  }
+  return cell;
+}
+
+//------------------------------------------------------------------------------
+std::int32_t BezierMesh::CellOfSpans(const std::array<std::int32_t, 3>& span) const
+{
+  const auto [i, j, k] = span;
   std::int32_t entry = -2;
   for (int depth = this->Depth; entry < Nothing; --depth)
   {

@@ -79,7 +79,7 @@ public:
   }
 
   /// The cell that holds a point of parameter space, -1 if there is none. Cells are closed at their
-  /// low ends and open at their high ends, except at the end of the domain.
+  /// low ends and open at their high ends, except where no cell follows.
   Index FindCell(double u, double v, double w) const;
 
   /// Index of the knot interval of direction a that holds x (half open, closed at the end of the
@@ -129,6 +129,7 @@ private:
   std::vector<Block> Tree;
   int Depth = 1;
 
+  std::int32_t CellOfSpans(const std::array<std::int32_t, 3>& span) const; // a cell or Nothing
   void BuildUnivariate(const TSpline& spline);
   void BuildSpanTables();
   void BuildLevels();

@@ -14,6 +14,88 @@ bool IsTSplineArrayName(const std::string& name)
          TSplineArrayNames.end();
 }
 
+namespace
+{
+// Cuts the lines to the knots between the first and the last that functions use: the part's domain.
+void TrimKnotLines(TSpline& spline)
+{
+  for (int a = 0; a < 3; ++a)
+  {
+    KnotLine& line = spline.KnotLines[a];
+    std::int32_t low = static_cast<std::int32_t>(line.size()), high = -1;
+    for (const BlendingFunction& f : spline.Functions)
+    {
+      low = std::min(low, f[a].front());
+      high = std::max(high, f[a].back());
+    }
+    for (BlendingFunction& f : spline.Functions)
+    {
+      for (std::int32_t& knot : f[a])
+      {
+        knot -= low;
+      }
+    }
+    line = high < 0 ? line : KnotLine(line.begin() + low, line.begin() + high + 1);
+  }
+}
+}
+
+//------------------------------------------------------------------------------
+std::vector<std::int32_t> SegmentsOf(const TSplineModel& model)
+{
+  const std::set<std::int32_t> segments(model.Segment.begin(), model.Segment.end());
+  return { segments.begin(), segments.end() };
+}
+
+//------------------------------------------------------------------------------
+TSplineModel SegmentPart(const TSplineModel& model, std::int32_t segment)
+{
+  std::vector<char> removed;
+  removed.reserve(model.Segment.size());
+  for (const std::int32_t s : model.Segment)
+  {
+    removed.push_back(s != segment);
+  }
+  TSplineModel part = model;
+  RemoveFunctions(part.Spline, removed);
+  TrimKnotLines(part.Spline);
+  part.RootCells = part.Spline.Size() == model.Spline.Size()
+                     ? model.RootCells
+                     : std::array<std::int32_t, 3>{ 0, 0, 0 };
+  part.Segment.assign(part.Spline.Size(), segment);
+  part.Block.clear();
+  for (std::size_t i = 0; i < removed.size(); ++i)
+  {
+    if (!removed[i])
+    {
+      part.Block.push_back(model.Block[i]);
+    }
+  }
+  return part;
+}
+
+//------------------------------------------------------------------------------
+TSplineModel AttributePart(const TSplineModel& model, int attribute)
+{
+  int first = 3;
+  for (int a = 0; a < attribute; ++a)
+  {
+    first += model.Attributes[a].Components;
+  }
+  TSplineModel part = model;
+  part.Attributes = { model.Attributes[attribute] };
+  part.Spline.Components = 3 + part.Attributes[0].Components;
+  part.Spline.ControlPoints.clear();
+  for (Index i = 0; i < model.Spline.Size(); ++i)
+  {
+    const double* p = model.Spline.ControlPoint(i);
+    auto& points = part.Spline.ControlPoints;
+    points.insert(points.end(), p, p + 3);
+    points.insert(points.end(), p + first, p + first + part.Attributes[0].Components);
+  }
+  return part;
+}
+
 //------------------------------------------------------------------------------
 std::string Validate(const TSplineModel& model)
 {

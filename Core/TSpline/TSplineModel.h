@@ -40,6 +40,16 @@ inline const std::array<const char*, 6> TSplineArrayNames = { "KnotsU", "KnotsV"
 /// Whether `name` is one of TSplineArrayNames.
 bool IsTSplineArrayName(const std::string& name);
 
+/// The segments that have blending functions, ascending.
+std::vector<std::int32_t> SegmentsOf(const TSplineModel& model);
+
+/// The blending functions of one segment. The functions of a segment do not overlap those of
+/// another in parameter space, so this is the whole spline there. Knot lines end where they do.
+TSplineModel SegmentPart(const TSplineModel& model, std::int32_t segment);
+
+/// The same spline with one attribute only, counted from 0.
+TSplineModel AttributePart(const TSplineModel& model, int attribute);
+
 /// Empty when the spline and all beside it are sound; otherwise one sentence that names the first
 /// fault and its place.
 std::string Validate(const TSplineModel& model);

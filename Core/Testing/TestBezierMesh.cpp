@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "RandomRefinement.h"
 #include "TSpline/BezierExtraction.h"
 #include "TSpline/BezierMesh.h"
-#include "RandomRefinement.h"
 #include "ThreadedExecution.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <stdexcept>
@@ -207,7 +208,19 @@ void ExpectPartition(const TSpline& spline, const BezierMesh& mesh, std::mt19937
       at[a] = static_cast<std::int32_t>(random() % grid.Size[a]);
       x[a] = n % 3 ? Random(random, line[at[a]], line[at[a] + 1]) : line[at[a]];
     }
-    ASSERT_EQ(mesh.FindCell(x[0], x[1], x[2]), owner[grid.Place(at)]);
+    const Index cell = mesh.FindCell(x[0], x[1], x[2]), wanted = owner[grid.Place(at)];
+    if (wanted >= 0 || n % 3)
+    {
+      ASSERT_EQ(cell, wanted);
+    }
+    else if (cell >= 0) // at the high end of a cell that none follows
+    {
+      const auto b = mesh.Bounds(cell);
+      for (int a = 0; a < 3; ++a)
+      {
+        ASSERT_TRUE(b[2 * a] <= x[a] && x[a] <= b[2 * a + 1]);
+      }
+    }
   }
 }
 }
@@ -410,4 +423,37 @@ TEST(BezierExtraction, RefusesUnknownComponents)
   const BezierMesh mesh(spline);
   EXPECT_THROW(ExtractBezier(spline, mesh, { 5 }), std::invalid_argument);
   EXPECT_THROW(ExtractBezier(spline, mesh, { -2 }), std::invalid_argument);
+}
+
+// Two boxes with a gap between them: each is closed, also at its high end.
+TEST(BezierMesh, IsClosedWhereNoCellFollows)
+{
+  const KnotLine line = MakeUniformKnotLine(0.0, 2.0, 2);
+  TSpline spline = MakeTensorProduct({ line, line, line }, { 1, 1, 1 }, 0);
+  const TSpline other = spline;
+  spline.KnotLines[0] = { 0.0, 1.0, 2.0, 5.0, 6.0, 7.0 };
+  for (Index i = 0; i < other.Size(); ++i)
+  {
+    BlendingFunction f = other.Functions[i];
+    for (std::int32_t& knot : f[0])
+    {
+      knot += 3;
+    }
+    spline.Functions.push_back(f);
+    spline.Weights.push_back(1.0);
+    spline.ControlPoints.insert(
+      spline.ControlPoints.end(), other.ControlPoint(i), other.ControlPoint(i) + 3);
+  }
+  const BezierMesh mesh(spline);
+  ASSERT_EQ(mesh.Size(), 16);
+  const auto at = [&mesh](double u, double v, double w) { return mesh.FindCell(u, v, w); };
+  EXPECT_EQ(at(2.0, 0.5, 0.5), at(1.5, 0.5, 0.5));
+  EXPECT_EQ(at(2.0, 2.0, 2.0), at(1.5, 1.5, 1.5));
+  EXPECT_EQ(at(7.0, 2.0, 1.0), at(6.5, 1.5, 1.5));
+  EXPECT_EQ(at(1.0, 1.0, 1.0), at(1.5, 1.5, 1.5)); // a cell follows
+  EXPECT_EQ(at(5.0, 0.5, 0.5), at(5.5, 0.5, 0.5));
+  EXPECT_GE(at(2.0, 0.5, 0.5), 0);
+  EXPECT_EQ(at(std::nextafter(2.0, 3.0), 0.5, 0.5), -1);
+  EXPECT_EQ(at(std::nextafter(5.0, 4.0), 0.5, 0.5), -1);
+  EXPECT_EQ(at(3.0, 0.5, 0.5), -1);
 }

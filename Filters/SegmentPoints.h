@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * A T-spline of several segments at given points in space.
+ *
+ * Segments overlap in space where their splines reach beyond their boundaries, so it has to be said
+ * whose spline counts at a point.
+ */
+#ifndef SegmentPoints_h
+#define SegmentPoints_h
+
+#include "FieldSampler.h"
+
+class vtkDataArray;
+class vtkDataSet;
+
+namespace trivariate
+{
+/**
+ * As FillPoints, but every point by the spline of its own segment, which `labels` tells; without
+ * labels (null) by that of the highest segment that holds it. Throws std::invalid_argument with a
+ * sentence for the user when the labels are not one number a point.
+ */
+void FillPointsOfSegments(
+  const TSplineView& view, vtkDataArray* labels, vtkDataSet* output, const Execution& execution);
+}
+
+#endif

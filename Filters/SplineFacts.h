@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * What there is to say of a spline beside its errors: how much it stores, whether it folds, how far
+ * its boundary is from the segment's.
+ */
+#ifndef SplineFacts_h
+#define SplineFacts_h
+
+#include "Execution.h"
+#include "TSpline/TSplineModel.h"
+
+#include <limits>
+
+class vtkPolyData;
+class vtkTable;
+
+namespace trivariate
+{
+class BezierMesh;
+struct ReportInput;
+
+/// Stands for all segments together.
+constexpr int AllSegments = -1;
+
+/// NaN where something is not known.
+struct SplineFacts
+{
+  static constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+  double ControlPoints = NaN;
+  double NumbersStored = NaN; ///< equal control points once; an affine geometry is twelve numbers
+  double Blocks = NaN;
+  double Bytes = NaN;
+  double MinimumScaledJacobian = NaN; ///< as JacobianRange, above 0 for the image's own handedness
+  double InvertedCells = NaN;
+  double Hausdorff = NaN; ///< in voxels; not for an affine geometry, the box of an image
+
+  /// Of two segments together; what is not known of one does not count.
+  void Add(const SplineFacts& other);
+};
+
+/// Of the spline of a segment; the mesh is that of `part`.
+SplineFacts DescribeSpline(const TSplineModel& part, const BezierMesh& mesh, bool affine,
+  int segment, const ReportInput& input, const Execution& execution);
+
+/// Distinct corners of the polycube on the surface of a segment, or on all (AllSegments).
+double CountCorners(vtkPolyData* surface, int segment);
+
+/// The last row of a segment in the table of rounds, or the sum over segments (AllSegments).
+double SecondsOf(vtkTable* rounds, int segment);
+
+/// Of a .tspline file as vtkTSplineWriter writes it.
+double StoredBytes(const TSplineModel& model, const Execution& execution);
+}
+
+#endif
