@@ -7,14 +7,17 @@
     python3 Utilities/domains.py [--sweep] [--save FOLDER] [VOLUME=THRESHOLD[,THRESHOLD ...] ...]
 
 Segment i of a volume is where the density exceeds i of the thresholds; what is made whole by
-Segment Topology goes through Segment Boundary and Polycube Domain, all with their defaults. --sweep
-takes 20 thresholds a volume, evenly through its range, one after the other. The volumes are the
-.vti files of TRIVARIATE_DATA_DIR (default: ../shared/data). Each run is a process of its own.
+Segment Topology goes through Segment Boundary (without density, whose half-way level is another than
+the threshold) and Polycube Domain, all else with their defaults. --sweep takes 20 thresholds a
+volume, evenly from the density that half of the voxels exceed to that which 100 exceed. The volumes
+are the .vti files of TRIVARIATE_DATA_DIR (default: ../shared/data). Each run is a process of its
+own.
 """
 import argparse
 import json
 import os
 import pathlib
+import resource
 import subprocess
 import sys
 import time
@@ -23,7 +26,7 @@ RUNS = ["tooth=105", "fuel=15", "hydrogen_atom=20", "ankle_128=40", "nucleon=50"
         "walnut=80", "tooth=105,175", "fuel=15,100", "aneurism=60"]
 VOLUMES = ["tooth", "fuel", "hydrogen_atom", "ankle_128", "nucleon", "walnut"]
 STEPS = 20
-LEAST_VOXELS = 100  # segments with fewer are no sample of a shape
+LEAST_VOXELS = 100
 
 data = pathlib.Path(os.environ.get("TRIVARIATE_DATA_DIR",
                                    pathlib.Path(__file__).resolve().parents[2] / "shared" / "data"))
@@ -58,13 +61,12 @@ def measure(run, folder):
     name, thresholds = run.split("=")
     image, density = volume_of(name)
     labels = sum((density > float(t)).astype(numpy.int32) for t in thresholds.split(","))
-    row = {"voxels": int(numpy.count_nonzero(labels)), "messages": ""}
-    if row["voxels"] < LEAST_VOXELS:
-        return row
+    row = {"messages": ""}
     array = numpy_to_vtk(labels, deep=1)
     array.SetName("Segment")
     image.GetPointData().AddArray(array)
     topology, boundary, domain = vtkSegmentTopology(), vtkSegmentBoundary(), vtkPolycubeDomain()
+    boundary.UseDensityOff()
     topology.SetInputData(image)
     boundary.SetInputConnection(topology.GetOutputPort())
     domain.SetInputConnection(boundary.GetOutputPort())
@@ -82,7 +84,8 @@ def measure(run, folder):
         seconds.append(round(time.time() - start, 1))
     patches, cubes, borders = (domain.GetOutputDataObject(port) for port in range(3))
     row.update(seconds=seconds, triangles=boundary.GetOutput().GetNumberOfCells(),
-               blocks=cubes.GetNumberOfCells())
+               blocks=cubes.GetNumberOfCells(),
+               peak=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024)
     if row["blocks"] > 0:
         quality = vtkMeshQuality()
         quality.SetInputData(cubes)
@@ -109,7 +112,7 @@ def in_a_process(run, folder):
     command = [sys.executable, __file__, "--one", run] + (["--save", folder] if folder else [])
     done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=False)
     if done.returncode != 0:
-        return {"voxels": -1, "messages": f"ended with {done.returncode}"}
+        return {"messages": f"ended with {done.returncode}"}
     return json.loads(done.stdout.splitlines()[-1])
 
 
@@ -130,19 +133,18 @@ def table(runs, folder):
 
 
 def sweep(volumes, folder):
+    import numpy
     print("| volume | thresholds | with a domain | mean n.a | least n.a | corners | inverted blocks "
-          "| slowest s |\n|---|---|---|---|---|---|---|---|", flush=True)
+          "| slowest s | peak MiB |\n|---|---|---|---|---|---|---|---|---|", flush=True)
     messages = []
     for volume in volumes:
         _, density = volume_of(volume)
-        low, high = float(density.min()), float(density.max())
+        low, high = (float(d) for d in numpy.sort(density)[[density.size // 2, -1 - LEAST_VOXELS]])
         rows = []
         for step in range(1, STEPS + 1):
             run = f"{volume}={low + (high - low) * step / (STEPS + 1):g}"
             row = in_a_process(run, folder)
             print(run, json.dumps(row), file=sys.stderr, flush=True)
-            if 0 <= row["voxels"] < LEAST_VOXELS:
-                continue
             rows.append(row)
             messages += [f"{run}: {line}" for line in row["messages"].splitlines()]
         valid = [row for row in rows if row.get("blocks", 0) > 0]
@@ -151,7 +153,8 @@ def sweep(volumes, folder):
         print(f"| {volume} | {len(rows)} | {len(valid)} | {sum(values) / len(values):.3f} "
               f"| {min(values):.3f} | {corners[0]} to {corners[-1]} "
               f"| {sum(row['inverted'] for row in valid)} of {sum(row['blocks'] for row in valid)} "
-              f"| {max(row['seconds'][2] for row in valid):.1f} |", flush=True)
+              f"| {max(row['seconds'][2] for row in valid):.1f} "
+              f"| {max(row['peak'] for row in valid)} |", flush=True)
     print("\n" + "\n".join(messages), flush=True)
 
 

@@ -37,7 +37,7 @@ struct ConformalCylinder::Laplacian
 };
 
 //------------------------------------------------------------------------------
-ConformalCylinder::ConformalCylinder(const SurfaceMesh& mesh)
+ConformalCylinder::ConformalCylinder(const SurfaceMesh& mesh, const Execution& execution)
   : Mesh(mesh)
   , Operator(std::make_unique<Laplacian>())
 {
@@ -73,7 +73,10 @@ ConformalCylinder::ConformalCylinder(const SurfaceMesh& mesh)
   }
   Eigen::SparseMatrix<double> matrix(n - 1, n - 1);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  this->Operator->Inverse.compute(matrix);
+  execution.Check(0.2);
+  this->Operator->Inverse.analyzePattern(matrix);
+  execution.Check(0.5);
+  this->Operator->Inverse.factorize(matrix);
   if (this->Operator->Inverse.info() != Eigen::Success)
   {
     throw std::runtime_error("The Laplacian of the surface could not be factorised.");

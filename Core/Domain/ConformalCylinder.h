@@ -12,6 +12,7 @@
 #ifndef trivariate_ConformalCylinder_h
 #define trivariate_ConformalCylinder_h
 
+#include "Execution.h"
 #include "SurfaceMesh.h"
 
 #include <memory>
@@ -30,7 +31,7 @@ struct CylinderCoordinates
 class ConformalCylinder
 {
 public:
-  explicit ConformalCylinder(const SurfaceMesh& mesh);
+  ConformalCylinder(const SurfaceMesh& mesh, const Execution& execution);
   ~ConformalCylinder();
 
   CylinderCoordinates Map(Index low, Index high) const;

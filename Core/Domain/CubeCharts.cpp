@@ -40,7 +40,7 @@ public:
     : Mesh(mesh)
     , Options(options)
     , Run(execution)
-    , Cylinder(mesh)
+    , Cylinder(mesh, execution.Part(0.0, 0.2))
   {
     const Index m = mesh.NumberOfTriangles();
     for (Index t = 0; t < m; ++t)
