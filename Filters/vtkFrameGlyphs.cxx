@@ -25,7 +25,7 @@ vtkStandardNewMacro(vtkFrameGlyphs);
 
 namespace
 {
-constexpr double FramesAlongLongestSide = 24.0;
+constexpr double FramesAlongLongestSide = 32.0;
 
 // Every how many voxels along i, j, k a frame is drawn, and how far apart that is at least.
 struct Sampling

@@ -44,7 +44,7 @@ public:
   /**
    * How far apart the frames are that are drawn, in voxels along the axis of the finest spacing;
    * fewer along others. Valid range [0, VTK_INT_MAX]. Default is 0, which means such that there are
-   * about 24 along the longest side of the image.
+   * about 32 along the longest side of the image.
    */
   vtkSetClampMacro(Stride, int, 0, VTK_INT_MAX);
   vtkGetMacro(Stride, int);
