@@ -117,8 +117,9 @@ void BlockCells::FindColours(Index nodes)
 }
 
 //------------------------------------------------------------------------------
-std::vector<Vector3d> CellTargets(const BlockMesh& mesh, const BlockCells& cells)
+std::vector<Vector3d> CellTargets(const BlockMesh& mesh)
 {
+  const BlockCells cells(mesh);
   std::vector<Vector3d> lengths(mesh.Sizes.size(), Vector3d::Zero());
   std::vector<double> volumes(mesh.Sizes.size(), 0.0), count(mesh.Sizes.size(), 0.0);
   for (std::size_t c = 0; c < cells.Cells.size(); ++c)

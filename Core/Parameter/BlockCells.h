@@ -39,7 +39,7 @@ private:
  * The wanted lengths of a block's cells along its axes: their means as they are, scaled so that the
  * cells fill the volume of the block. O(n).
  */
-std::vector<Eigen::Vector3d> CellTargets(const BlockMesh& mesh, const BlockCells& cells);
+std::vector<Eigen::Vector3d> CellTargets(const BlockMesh& mesh);
 
 /// The volume of a trilinear hexahedron, exactly.
 double HexahedronVolume(const std::vector<Eigen::Vector3d>& places, const BlockPoints& cell);

@@ -49,25 +49,23 @@ BlockMesh MakeBlockMesh(const BlockDomain& domain, const BlockMeshOptions& optio
   {
     levels.push_back(Halved(levels.back()));
   }
-  if (report)
-  {
-    report->Start = QualityOf(StartOfBlockMesh(domain, levels.front(), execution), execution);
-  }
-  BlockMesh mesh = StartOfBlockMesh(domain, levels.back(), execution.Part(0.0, 0.1));
+  const std::vector<PatchMap> maps = MapPatches(domain, execution.Part(0.0, 0.1));
+  BlockMesh mesh;
   for (std::size_t level = levels.size(); level-- > 0;)
   {
-    if (level + 1 < levels.size())
-    {
-      mesh = Resampled(mesh, domain.Blocks, levels[level]);
-    }
+    const BlockMesh start = StartOfBlockMesh(domain, maps, levels[level]);
+    const SlidingNodes sliding(domain, start);
+    mesh = mesh.Places.empty() ? start : Resampled(mesh, domain.Blocks, levels[level]);
+    sliding.SendHome(mesh.Places);
     // Each level is about eight times the work of the one before.
     const double end = std::pow(0.125, level);
-    Repair(mesh, SlidingNodes(domain, mesh), options.Repair,
+    Repair(mesh, sliding, CellTargets(start), options.Repair,
       execution.Part(0.1 + 0.9 * end / 8.0, 0.1 + 0.9 * end));
-  }
-  if (report)
-  {
-    report->End = QualityOf(mesh, execution);
+    if (report && level == 0)
+    {
+      report->Start = QualityOf(start, execution);
+      report->End = QualityOf(mesh, execution);
+    }
   }
   return mesh;
 }

@@ -22,25 +22,38 @@ using Eigen::Vector3d;
 constexpr int MostHalvings = 8;
 constexpr double LongestStep = 1.0; // in wanted lengths
 constexpr double Sharp = 1e-8;      // the regularisation where nothing is inverted
+constexpr int WholeSweeps = 10;     // before only nodes near inverted cells move
+constexpr int Rings = 3;            // of cells around those
+
+// By the least determinant: large enough that the energy pulls inverted cells out.
+double Regularisation(double least)
+{
+  return std::sqrt(1e-6 + 0.04 * least * least);
+}
 
 class Sweeper
 {
 public:
-  Sweeper(BlockMesh& mesh, const SlidingNodes& sliding)
+  Sweeper(BlockMesh& mesh, const SlidingNodes& sliding, const std::vector<Vector3d>& targets,
+    double homing)
     : Mesh(mesh)
     , Sliding(sliding)
+    , Targets(targets)
+    , Homing(homing)
     , Cells(mesh)
-    , Targets(CellTargets(mesh, this->Cells))
+    , Active(mesh.Places.size(), 1)
+    , Determinants(this->Cells.Cells.size())
   {
   }
 
-  void Retarget() { this->Targets = CellTargets(this->Mesh, this->Cells); }
-
-  /// One move of each node.
+  /// One move of each active node.
   void Sweep(double epsilon, const Execution& execution);
 
+  /// Only nodes in some rings around cells that are inverted; or all of them.
+  void Activate(bool all);
+
   /// Over all corners, of targets.
-  double LeastDeterminant(const Execution& execution) const;
+  double LeastDeterminant(const Execution& execution);
 
   double Energy(double epsilon, const Execution& execution) const;
 
@@ -50,8 +63,11 @@ private:
 
   BlockMesh& Mesh;
   const SlidingNodes& Sliding;
+  const std::vector<Vector3d>& Targets;
+  double Homing;
   BlockCells Cells;
-  std::vector<Vector3d> Targets;
+  std::vector<char> Active;
+  std::vector<double> Determinants; // the least of each cell, of its target
 };
 
 void Sweeper::Terms(Index node, std::vector<CornerTerm>& terms) const
@@ -94,6 +110,14 @@ void Sweeper::Move(Index node, double epsilon, std::vector<CornerTerm>& terms)
   }
 
   Vector3d& place = this->Mesh.Places[node];
+  const Vector3d& lengths = this->Targets[this->Cells.BlockOf[this->Cells.UsesBegin(node)->Cell]];
+  const Vector3d& home = this->Sliding.Home(node);
+  const double homing =
+    kind == SlidingNodes::Free ? 0.0 : this->Homing * terms.size() / lengths.squaredNorm();
+  energy += homing * (place - home).squaredNorm();
+  gradient += 2.0 * homing * (place - home);
+  hessian.diagonal().array() += 2.0 * homing;
+
   Vector3d step = Vector3d::Zero();
   const int freedom = kind == SlidingNodes::OnBorder ? 1 : kind == SlidingNodes::OnPatch ? 2 : 3;
   Matrix3d basis;
@@ -106,7 +130,6 @@ void Sweeper::Move(Index node, double epsilon, std::vector<CornerTerm>& terms)
   const double least = 1e-9 * curve.maxCoeff();
   step =
     -free * (eigen.eigenvectors() * slope.cwiseQuotient(curve.cwiseMax(std::max(least, 1e-300))));
-  const Vector3d& lengths = this->Targets[this->Cells.BlockOf[this->Cells.UsesBegin(node)->Cell]];
   const double longest = LongestStep * lengths.maxCoeff();
   const double length = step.norm();
   if (!(length > 0.0) || !std::isfinite(length))
@@ -121,7 +144,7 @@ void Sweeper::Move(Index node, double epsilon, std::vector<CornerTerm>& terms)
                                  ? Vector3d(place + step)
                                  : this->Sliding.Allowed(node, place + step);
     const Vector3d moved = candidate - place;
-    double there = 0.0;
+    double there = homing * (candidate - home).squaredNorm();
     for (const CornerTerm& term : terms)
     {
       there += CornerEnergy(term.TraceAt(moved), term.DeterminantAt(moved), epsilon);
@@ -144,29 +167,57 @@ void Sweeper::Sweep(double epsilon, const Execution& execution)
         std::vector<CornerTerm> terms;
         for (Index i = begin; i < end; ++i)
         {
-          this->Move(nodes[i], epsilon, terms);
+          if (this->Active[nodes[i]])
+          {
+            this->Move(nodes[i], epsilon, terms);
+          }
         }
       });
   }
 }
 
-double Sweeper::LeastDeterminant(const Execution& execution) const
+void Sweeper::Activate(bool all)
 {
-  std::vector<double> least(this->Cells.Cells.size(), std::numeric_limits<double>::infinity());
-  execution.ParallelFor(static_cast<Index>(least.size()),
+  std::fill(this->Active.begin(), this->Active.end(), all);
+  for (std::size_t c = 0; c < this->Determinants.size(); ++c)
+  {
+    if (this->Determinants[c] <= 0.0)
+    {
+      for (const Index node : this->Cells.Cells[c])
+      {
+        this->Active[node] = 1;
+      }
+    }
+  }
+  for (int ring = 0; ring < Rings && !all; ++ring)
+  {
+    const std::vector<char> before = this->Active;
+    for (const BlockPoints& cell : this->Cells.Cells)
+    {
+      if (std::any_of(cell.begin(), cell.end(), [&before](Index node) { return before[node]; }))
+      {
+        for (const Index node : cell)
+        {
+          this->Active[node] = 1;
+        }
+      }
+    }
+  }
+}
+
+double Sweeper::LeastDeterminant(const Execution& execution)
+{
+  execution.ParallelFor(static_cast<Index>(this->Determinants.size()),
     [&](Index begin, Index end)
     {
       for (Index c = begin; c < end; ++c)
       {
-        for (int corner = 0; corner < 8; ++corner)
-        {
-          const Matrix3d jacobian = CornerJacobian(
-            this->Mesh.Places, this->Cells.Cells[c], corner, this->Targets[this->Cells.BlockOf[c]]);
-          least[c] = std::min(least[c], jacobian.determinant());
-        }
+        const double target = this->Targets[this->Cells.BlockOf[c]].prod();
+        this->Determinants[c] =
+          trivariate::LeastDeterminant(this->Mesh.Places, this->Cells.Cells[c]) / target;
       }
     });
-  return *std::min_element(least.begin(), least.end());
+  return *std::min_element(this->Determinants.begin(), this->Determinants.end());
 }
 
 double Sweeper::Energy(double epsilon, const Execution& execution) const
@@ -227,25 +278,21 @@ CellQuality QualityOf(const BlockMesh& mesh, const Execution& execution)
 }
 
 //------------------------------------------------------------------------------
-void Repair(BlockMesh& mesh, const SlidingNodes& sliding, const RepairOptions& options,
-  const Execution& execution)
+void Repair(BlockMesh& mesh, const SlidingNodes& sliding, const std::vector<Vector3d>& targets,
+  const RepairOptions& options, const Execution& execution)
 {
-  sliding.MoveToSurface(mesh.Places, execution);
-  Sweeper sweeper(mesh, sliding);
+  Sweeper sweeper(mesh, sliding, targets, options.Homing);
   const double all = options.MostUntangling + options.MostSmoothing;
   double least = sweeper.LeastDeterminant(execution);
   for (int sweep = 0; sweep < options.MostUntangling && least <= 0.0; ++sweep)
   {
     execution.Check(sweep / all);
-    const double epsilon = std::sqrt(1e-6 + 0.04 * least * least);
-    sweeper.Sweep(epsilon, execution);
+    sweeper.Activate(sweep < WholeSweeps);
+    sweeper.Sweep(Regularisation(least), execution);
     least = sweeper.LeastDeterminant(execution);
   }
-  if (least > 0.0)
-  {
-    sweeper.Retarget();
-  }
-  const double epsilon = least > 0.0 ? Sharp : std::sqrt(1e-6 + 0.04 * least * least);
+  sweeper.Activate(true);
+  const double epsilon = least > 0.0 ? Sharp : Regularisation(least);
   double energy = sweeper.Energy(epsilon, execution);
   for (int sweep = 0; sweep < options.MostSmoothing; ++sweep)
   {

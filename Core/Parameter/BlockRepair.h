@@ -13,6 +13,7 @@ struct RepairOptions
 {
   int MostUntangling = 300; ///< sweeps over all nodes as long as cells are inverted
   int MostSmoothing = 40;   ///< sweeps afterwards
+  double Homing = 0.1;      ///< how much nodes of the surface are held near their homes
   double Settled = 1e-3; ///< smoothing ends when a sweep lowers the energy by less than this share
 };
 
@@ -32,9 +33,11 @@ CellQuality QualityOf(const BlockMesh& mesh, const Execution& execution);
  * Moves the nodes of a mesh, each as SlidingNodes lets it, one after the other, to lower the sum of
  * CornerEnergy over the corners of all cells: first with a regularisation that shrinks until no
  * cell is inverted, then to make them even. Nodes of one colour move at a time, so that the result
- * does not depend on threads. Each move is a Newton step with a line search.
+ * does not depend on threads. Each move is a Newton step with a line search. targets: of each
+ * block, the wanted lengths of its cells.
  */
-void Repair(BlockMesh& mesh, const SlidingNodes& sliding, const RepairOptions& options,
+void Repair(BlockMesh& mesh, const SlidingNodes& sliding,
+  const std::vector<Eigen::Vector3d>& targets, const RepairOptions& options,
   const Execution& execution);
 }
 

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BlockStart.h"
 
-#include "PatchMap.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -32,7 +30,7 @@ public:
   }
 
   void PlaceBorders();
-  void PlacePatches(const Execution& execution);
+  void PlacePatches(const std::vector<PatchMap>& maps);
   void PlaceBelowPatches();
   void PlaceEdges();
   void PlaceFaces();
@@ -105,7 +103,7 @@ void Start::PlaceBorders()
     });
 }
 
-void Start::PlacePatches(const Execution& execution)
+void Start::PlacePatches(const std::vector<PatchMap>& maps)
 {
   struct Standing
   {
@@ -127,10 +125,9 @@ void Start::PlacePatches(const Execution& execution)
   }
   for (std::size_t patch = 0; patch < on.size(); ++patch)
   {
-    execution.Check(double(patch) / on.size());
     const auto& [block, face] = on[patch];
     const int axis = face / 2;
-    const PatchMap map(this->Domain, static_cast<Index>(patch));
+    const PatchMap& map = maps[patch];
     const std::array<Index, 4> points = FacePoints(this->Domain.Blocks[block], axis, face % 2);
     const Vector2d origin = map.CornerOf(points[0]);
     const Vector2d along = map.CornerOf(points[1]) - origin,
@@ -268,12 +265,24 @@ void Start::PlaceInside()
 }
 
 //------------------------------------------------------------------------------
-BlockMesh StartOfBlockMesh(const BlockDomain& domain, const std::vector<std::array<int, 3>>& sizes,
-  const Execution& execution)
+std::vector<PatchMap> MapPatches(const BlockDomain& domain, const Execution& execution)
+{
+  std::vector<PatchMap> maps;
+  for (std::size_t patch = 0; patch < domain.Patches.size(); ++patch)
+  {
+    execution.Check(double(patch) / domain.Patches.size());
+    maps.emplace_back(domain, static_cast<Index>(patch));
+  }
+  return maps;
+}
+
+//------------------------------------------------------------------------------
+BlockMesh StartOfBlockMesh(const BlockDomain& domain, const std::vector<PatchMap>& maps,
+  const std::vector<std::array<int, 3>>& sizes)
 {
   Start start(domain, sizes);
   start.PlaceBorders();
-  start.PlacePatches(execution);
+  start.PlacePatches(maps);
   start.PlaceBelowPatches();
   start.PlaceEdges();
   start.PlaceFaces();

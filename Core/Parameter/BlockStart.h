@@ -4,8 +4,8 @@
 #ifndef trivariate_BlockStart_h
 #define trivariate_BlockStart_h
 
-#include "BlockDomain.h"
 #include "Execution.h"
+#include "PatchMap.h"
 
 namespace trivariate
 {
@@ -14,8 +14,11 @@ namespace trivariate
  * face across from the patch of a layer is the patch, moved as its corners are. All other edges are
  * straight, faces and blocks transfinite interpolations of what bounds them. Cells may be inverted.
  */
-BlockMesh StartOfBlockMesh(const BlockDomain& domain, const std::vector<std::array<int, 3>>& sizes,
-  const Execution& execution);
+BlockMesh StartOfBlockMesh(const BlockDomain& domain, const std::vector<PatchMap>& maps,
+  const std::vector<std::array<int, 3>>& sizes);
+
+/// Of all patches, in order.
+std::vector<PatchMap> MapPatches(const BlockDomain& domain, const Execution& execution);
 }
 
 #endif

@@ -3,6 +3,7 @@
 #include "PatchMap.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <Eigen/SparseLU>
 
 #include <algorithm>
@@ -17,6 +18,10 @@ namespace
 {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+
+constexpr int MostRounds = 12;
+constexpr double Gain = 0.01;       // the least share by which a round must lower the stretch
+constexpr double LeastArea = 1e-14; // of a triangle in the square
 
 Vector2d SquareCorner(int i)
 {
@@ -37,7 +42,7 @@ double Barycentric(
 {
   const auto area = [](const Vector2d& x, const Vector2d& y) { return x[0] * y[1] - x[1] * y[0]; };
   const double whole = area(b - a, c - a);
-  if (std::abs(whole) < 1e-14)
+  if (std::abs(whole) < LeastArea)
   {
     return -std::numeric_limits<double>::infinity();
   }
@@ -103,15 +108,75 @@ void PatchMap::MapSides()
 
 void PatchMap::MapInside()
 {
+  std::vector<double> divisors(this->Points.size(), 1.0), stretch;
+  double least = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < MostRounds; ++round)
+  {
+    const std::vector<Vector2d> square = this->Solved(divisors);
+    const double total = this->Stretch(square, stretch);
+    if (!(total < (1.0 - Gain) * least))
+    {
+      break;
+    }
+    least = total;
+    this->Square = square;
+    for (std::size_t p = 0; p < divisors.size(); ++p)
+    {
+      divisors[p] *= stretch[p];
+    }
+  }
+}
+
+// The root mean square of the singular values of the map from the square (made as large as the
+// surface) to the surface, over the surface; and at each point, over the triangles there.
+double PatchMap::Stretch(const std::vector<Vector2d>& square, std::vector<double>& ofPoints) const
+{
+  std::vector<double> areas(square.size(), 0.0);
+  ofPoints.assign(square.size(), 0.0);
+  double total = 0.0, area = 0.0;
+  for (const Triangle& c : this->Triangles)
+  {
+    const Vector3d& at = this->Domain.SurfacePoints[this->Points[c[0]]];
+    const Vector3d p = this->Domain.SurfacePoints[this->Points[c[1]]] - at;
+    const Vector3d q = this->Domain.SurfacePoints[this->Points[c[2]]] - at;
+    Eigen::Matrix2d flat;
+    flat << square[c[1]] - square[c[0]], square[c[2]] - square[c[0]];
+    const double here = 0.5 * p.cross(q).norm();
+    const double determinant = std::max(std::abs(flat.determinant()), LeastArea);
+    Eigen::Matrix2d adjugate;
+    adjugate << flat(1, 1), -flat(0, 1), -flat(1, 0), flat(0, 0);
+    Eigen::Matrix<double, 3, 2> edges;
+    edges << p, q;
+    const double square2 = 0.5 * (edges * adjugate / determinant).squaredNorm();
+    total += here * square2;
+    area += here;
+    for (const Index corner : c)
+    {
+      areas[corner] += here;
+      ofPoints[corner] += here * square2;
+    }
+  }
+  for (std::size_t p = 0; p < square.size(); ++p)
+  {
+    ofPoints[p] = std::sqrt(ofPoints[p] / std::max(areas[p] * area, 1e-300));
+    ofPoints[p] = this->OnSide[p] || !(ofPoints[p] > 0.0) ? 1.0 : ofPoints[p];
+  }
+  return std::sqrt(total) / area;
+}
+
+// With each point's weight in the means around it divided.
+std::vector<Vector2d> PatchMap::Solved(const std::vector<double>& divisors) const
+{
   std::vector<Index> unknown(this->Points.size(), -1);
   Index unknowns = 0;
   for (std::size_t p = 0; p < this->Points.size(); ++p)
   {
     unknown[p] = this->OnSide[p] ? -1 : unknowns++;
   }
+  std::vector<Vector2d> square = this->Square;
   if (unknowns == 0)
   {
-    return;
+    return square;
   }
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(unknowns, 2);
@@ -131,8 +196,7 @@ void PatchMap::MapInside()
       const double tangent = TangentOfHalf(edges[0], edges[1]);
       for (int end = 0; end < 2; ++end)
       {
-        const double weight =
-          tangent / std::max(edges[end].norm(), std::numeric_limits<double>::min());
+        const double weight = tangent / std::max(edges[end].norm() * divisors[ends[end]], 1e-300);
         entries.emplace_back(row, row, weight);
         if (unknown[ends[end]] >= 0)
         {
@@ -159,9 +223,10 @@ void PatchMap::MapInside()
   {
     if (unknown[p] >= 0)
     {
-      this->Square[p] = solution.row(unknown[p]);
+      square[p] = solution.row(unknown[p]);
     }
   }
+  return square;
 }
 
 void PatchMap::FillBuckets()

@@ -17,7 +17,7 @@ namespace trivariate
 class PatchMap
 {
 public:
-  /// The domain must outlive the map. One sparse factorisation of as many unknowns as points.
+  /// The domain must outlive the map. Some sparse factorisations of as many unknowns as points.
   PatchMap(const BlockDomain& domain, Index patch);
 
   /// The place on the surface of a point of the square.
@@ -30,6 +30,8 @@ private:
   void Number();
   void MapSides();
   void MapInside();
+  std::vector<Eigen::Vector2d> Solved(const std::vector<double>& divisors) const;
+  double Stretch(const std::vector<Eigen::Vector2d>& square, std::vector<double>& ofPoints) const;
   void FillBuckets();
 
   const BlockDomain& Domain;

@@ -51,6 +51,7 @@ Vector3d NearestOfLine(const std::vector<Vector3d>& line, const Vector3d& p, Vec
 //------------------------------------------------------------------------------
 SlidingNodes::SlidingNodes(const BlockDomain& domain, const BlockMesh& mesh)
   : Domain(domain)
+  , Homes(mesh.Places)
   , Kinds(mesh.Places.size(), Free)
   , Support(mesh.Places.size(), -1)
   , Patches(domain.Patches.size())
@@ -151,15 +152,11 @@ Vector3d SlidingNodes::Allowed(Index node, const Vector3d& place, Matrix3d& basi
   return this->Allowed(node, place);
 }
 
-void SlidingNodes::MoveToSurface(std::vector<Vector3d>& places, const Execution& execution) const
+void SlidingNodes::SendHome(std::vector<Vector3d>& places) const
 {
-  execution.ParallelFor(static_cast<Index>(places.size()),
-    [&](Index begin, Index end)
-    {
-      for (Index node = begin; node < end; ++node)
-      {
-        places[node] = this->Allowed(node, places[node]);
-      }
-    });
+  for (std::size_t node = 0; node < places.size(); ++node)
+  {
+    places[node] = this->Kinds[node] == Free ? places[node] : this->Homes[node];
+  }
 }
 }

@@ -15,8 +15,8 @@ namespace trivariate
 class SlidingNodes
 {
 public:
-  /// The domain must outlive this. O(n log n).
-  SlidingNodes(const BlockDomain& domain, const BlockMesh& mesh);
+  /// `start`: the mesh as StartOfBlockMesh makes it. The domain must outlive this. O(n log n).
+  SlidingNodes(const BlockDomain& domain, const BlockMesh& start);
 
   enum Kind : char
   {
@@ -28,6 +28,10 @@ public:
 
   Kind KindOf(Index node) const { return this->Kinds[node]; }
 
+  /// Where the node started; one on the surface should not go far from there, so that all parts of
+  /// the surface keep their nodes.
+  const Eigen::Vector3d& Home(Index node) const { return this->Homes[node]; }
+
   /// The nearest place that the node may take.
   Eigen::Vector3d Allowed(Index node, const Eigen::Vector3d& place) const;
 
@@ -35,8 +39,8 @@ public:
   /// the first columns: none, one, two or all three.
   Eigen::Vector3d Allowed(Index node, const Eigen::Vector3d& place, Eigen::Matrix3d& basis) const;
 
-  /// Moves all nodes to where they may be.
-  void MoveToSurface(std::vector<Eigen::Vector3d>& places, const Execution& execution) const;
+  /// Puts all nodes of the surface where they started.
+  void SendHome(std::vector<Eigen::Vector3d>& places) const;
 
 private:
   struct PatchSurface
@@ -46,6 +50,7 @@ private:
   };
 
   const BlockDomain& Domain;
+  std::vector<Eigen::Vector3d> Homes;
   std::vector<Kind> Kinds;    // of each node
   std::vector<Index> Support; // of each node: its patch or border
   std::vector<PatchSurface> Patches;
