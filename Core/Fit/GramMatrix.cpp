@@ -193,8 +193,7 @@ GramMatrix::GramMatrix(const TSpline& spline, const FunctionTable& table, const 
   const auto entry = [&separable, &masked, &mask](Index i, Index j)
   { return mask.Values ? masked(i, j) : separable(i, j); };
 
-  this->Diagonal.resize(n);
-  this->Scale.resize(n);
+  this->Allocate(n);
   this->RowBegin.assign(n + 1, 0);
   const SupportTree tree(spline.Functions);
   const Index blocks = (n + BlockSize - 1) / BlockSize;
@@ -207,8 +206,7 @@ GramMatrix::GramMatrix(const TSpline& spline, const FunctionTable& table, const 
         const Index begin = block * BlockSize, end = std::min(n, begin + BlockSize);
         for (Index i = begin; i < end; ++i)
         {
-          this->Diagonal[i] = entry(i, i);
-          this->Scale[i] = this->Diagonal[i] > 0.0 ? 1.0 / std::sqrt(this->Diagonal[i]) : 0.0;
+          this->SetDiagonal(i, entry(i, i));
         }
         tree.QueryPairs(begin, end,
           [this, &columns, block](Index i, Index j)
@@ -221,9 +219,6 @@ GramMatrix::GramMatrix(const TSpline& spline, const FunctionTable& table, const 
   std::partial_sum(this->RowBegin.begin(), this->RowBegin.end(), this->RowBegin.begin());
   execution.Check(0.0);
 
-  this->BlockBegin.resize(n);
-  this->DiagonalAt.resize(n);
-  this->BlockEnd.resize(n);
   this->Columns.resize(this->RowBegin[n]);
   this->Values.resize(this->RowBegin[n]);
   execution.ParallelFor(blocks,
@@ -243,12 +238,67 @@ GramMatrix::GramMatrix(const TSpline& spline, const FunctionTable& table, const 
             this->Values[column - all] =
               static_cast<float>(entry(i, *column) * this->Scale[i] * this->Scale[*column]);
           }
-          this->BlockBegin[i] = std::lower_bound(row, rowEnd, begin) - all;
-          this->DiagonalAt[i] = std::lower_bound(row, rowEnd, i) - all;
-          this->BlockEnd[i] = std::lower_bound(row, rowEnd, end) - all;
+          this->FindBlock(i, n);
         }
       }
     });
+}
+
+//------------------------------------------------------------------------------
+GramMatrix::GramMatrix(std::vector<Index> rowBegin, std::vector<std::int32_t> columns,
+  std::vector<float> entries, const Execution& execution)
+  : RowBegin(std::move(rowBegin))
+  , Columns(std::move(columns))
+  , Values(std::move(entries))
+{
+  const Index n = static_cast<Index>(this->RowBegin.size()) - 1;
+  this->Allocate(n);
+  const auto all = this->Columns.begin();
+  for (Index i = 0; i < n; ++i)
+  {
+    this->FindBlock(i, n);
+    this->SetDiagonal(i, this->Values[this->DiagonalAt[i]]);
+  }
+  execution.ParallelFor(n,
+    [this, all](Index begin, Index end)
+    {
+      for (Index i = begin; i < end; ++i)
+      {
+        for (Index at = this->RowBegin[i]; at < this->RowBegin[i + 1]; ++at)
+        {
+          this->Values[at] *= static_cast<float>(this->Scale[i] * this->Scale[all[at]]);
+        }
+      }
+    });
+}
+
+//------------------------------------------------------------------------------
+void GramMatrix::Allocate(Index n)
+{
+  this->Diagonal.resize(n);
+  this->Scale.resize(n);
+  this->BlockBegin.resize(n);
+  this->DiagonalAt.resize(n);
+  this->BlockEnd.resize(n);
+}
+
+//------------------------------------------------------------------------------
+void GramMatrix::SetDiagonal(Index i, double value)
+{
+  this->Diagonal[i] = value;
+  this->Scale[i] = value > 0.0 ? 1.0 / std::sqrt(value) : 0.0;
+}
+
+//------------------------------------------------------------------------------
+// Where in row i the columns of its block are.
+void GramMatrix::FindBlock(Index i, Index n)
+{
+  const Index begin = i / BlockSize * BlockSize, end = std::min(n, begin + BlockSize);
+  const auto all = this->Columns.begin();
+  const auto row = all + this->RowBegin[i], rowEnd = all + this->RowBegin[i + 1];
+  this->BlockBegin[i] = std::lower_bound(row, rowEnd, begin) - all;
+  this->DiagonalAt[i] = std::lower_bound(row, rowEnd, i) - all;
+  this->BlockEnd[i] = std::lower_bound(row, rowEnd, end) - all;
 }
 
 //------------------------------------------------------------------------------

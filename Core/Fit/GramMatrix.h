@@ -37,6 +37,11 @@ public:
   GramMatrix(const TSpline& spline, const FunctionTable& table, const VoxelMask& mask,
     const Execution& execution);
 
+  /// From the entries of all rows, each with ascending columns and its diagonal: any symmetric
+  /// matrix that is positive semidefinite. A zero on the diagonal is a function without a sample.
+  GramMatrix(std::vector<Index> rowBegin, std::vector<std::int32_t> columns,
+    std::vector<float> entries, const Execution& execution);
+
   Index Size() const { return static_cast<Index>(this->Diagonal.size()); }
 
   /**
@@ -49,6 +54,10 @@ public:
     std::vector<double>& x, const Execution& execution) const;
 
 private:
+  void Allocate(Index n);
+  void SetDiagonal(Index i, double value);
+  void FindBlock(Index i, Index n);
+
   /// The sum of Values times x at their columns over the entries [begin, end).
   double Multiply(Index begin, Index end, const std::vector<double>& x) const;
 

@@ -12,6 +12,7 @@
 #include "Fit.h"
 #include "FunctionTable.h"
 #include "GramMatrix.h"
+#include "RefinementMarks.h"
 
 namespace trivariate
 {
@@ -20,15 +21,6 @@ struct FitError
 {
   double Rms = 0.0;
   double Maximum = 0.0;
-};
-
-/// What inserting a knot into a blending function is expected to bring.
-struct SplitGain
-{
-  Index Function;
-  int Direction;
-  std::int32_t Knot;
-  double SquaredError; ///< by how much the sum of squared residuals would fall
 };
 
 /// The residual of one attribute, as the fit sees it.

@@ -15,6 +15,9 @@ namespace
 // as it likes.
 constexpr Index LargeSize = 9000;
 
+// How many marks that bring more functions than there is room for may be passed over.
+constexpr int MostLeftOut = 8;
+
 // How many functions one round may add.
 Index StepOf(Index size)
 {
@@ -71,7 +74,7 @@ bool RefinementMarks::IsFull(Index size, Index maximum)
 bool RefinementMarks::Refine(std::vector<SplitGain> gains, Index maximum, TSpline& spline,
   std::unique_ptr<RefinementRule>& rule)
 {
-  const Index size = spline.Size();
+  const Index size = this->Count(spline);
   if (IsFull(size, maximum))
   {
     return false;
@@ -82,7 +85,8 @@ bool RefinementMarks::Refine(std::vector<SplitGain> gains, Index maximum, TSplin
   const Index wanted = std::min(size + step, maximum - maximum / 200) - size;
   // Up to four functions in line ask for the same face.
   KeepLargest(gains, 4 * wanted);
-  const std::vector<RefinementMark> all = DistinctMarks(gains, spline, wanted);
+  std::vector<RefinementMark> all = DistinctMarks(gains, spline, wanted);
+  int leftOut = 0;
   const auto scaled = [&all](double count)
   { return static_cast<Index>(std::clamp<double>(count, 1.0, static_cast<double>(all.size()))); };
   Index count = all.empty() ? 0 : scaled(wanted / this->FunctionsPerMark);
@@ -93,14 +97,19 @@ bool RefinementMarks::Refine(std::vector<SplitGain> gains, Index maximum, TSplin
     TSpline trial = spline;
     std::unique_ptr<RefinementRule> trialRule = rule->Clone();
     trialRule->Refine(trial, { all.begin(), all.begin() + count });
-    const Index grown = trial.Size() - size;
+    const Index grown = this->Count(trial) - size;
     if (grown > 0)
     {
       this->FunctionsPerMark = static_cast<double>(grown) / count;
     }
     // A single mark may grow more than a step (never more than the maximum allows).
-    if (trial.Size() > (count == 1 ? maximum : limit))
+    if (size + grown > (count == 1 ? maximum : limit))
     {
+      if (count == 1 && fits == 0 && ++leftOut < MostLeftOut && all.size() > 1)
+      {
+        all.erase(all.begin()); // alone too many
+        continue;
+      }
       count = fits > 0 ? 0 : std::min(count - 1, scaled(0.95 * count * wanted / grown));
       continue;
     }
@@ -109,13 +118,13 @@ bool RefinementMarks::Refine(std::vector<SplitGain> gains, Index maximum, TSplin
     bestRule = std::move(trialRule);
     // Where marks are cheaper than rounds, the step to the maximum is made in one.
     const bool isLastStep = size > LargeSize && size + wanted >= maximum - maximum / 200;
-    if (grown == 0 || !isLastStep || IsFull(best.Size(), maximum))
+    if (grown == 0 || !isLastStep || IsFull(size + grown, maximum))
     {
       break;
     }
     count = scaled(count * static_cast<double>(wanted) / grown);
   }
-  if (best.Size() <= size)
+  if (best.Size() <= spline.Size())
   {
     return false;
   }

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Adaptive least-squares fit of one T-spline to samples over the blocks of a domain.
+ *
+ * First the shape: X, Y, Z as functions of the parameters, refined until the spline's surface lies
+ * on the samples of the surface, and no further; what comes after carries it along unchanged, so it
+ * lives on a coarser net, nested in that of the attributes. Then every voxel takes the parameters
+ * at which this shape passes through it, and the attributes are fitted there, as in FitGrid.
+ */
+#ifndef trivariate_BlockFit_h
+#define trivariate_BlockFit_h
+
+#include "Domain/BlockComplex.h"
+#include "Fit.h"
+
+#include <vector>
+
+namespace trivariate
+{
+/// Voxels with their parameters in the space of the complex.
+struct BlockSamples
+{
+  std::vector<double> Parameters; ///< (u, v, w) of each
+  std::vector<double> Places;     ///< (X, Y, Z) of each
+  int Components = 1;
+  std::vector<double> Values; ///< Components blocks, each with a number for each voxel
+
+  Index Count() const { return static_cast<Index>(this->Parameters.size() / 3); }
+};
+
+/// Points of the shape, such as the nodes of a block mesh; none: the voxels are used.
+struct ShapeSamples
+{
+  std::vector<double> Parameters; ///< (u, v, w) of each; on a face of a block: of the surface
+  std::vector<double> Places;     ///< (X, Y, Z) of each
+};
+
+struct BlockFitOptions
+{
+  Index MaximumControlPoints = 50000; ///< distinct ones; hard limit
+  /// As in FitOptions.
+  double RmsTolerance = 0.0;
+  double MaximumErrorTolerance = 0.0;
+  /// The shape is refined until the root mean square distance of its samples on the surface is at
+  /// most this, in the unit of the places, or it has MaximumShapePoints control points.
+  double ShapeTolerance = 0.1;
+  Index MaximumShapePoints = 2000;
+  double Spacing = 1.0;  ///< distance of voxels in the unit of the places
+  int CoarsestCells = 1; ///< along the edge of a block, a power of two
+};
+
+struct BlockFitResult
+{
+  /// Components: X, Y, Z, then the attributes.
+  TSpline Spline;
+  std::vector<Index> PointOf; ///< of each function: which of the distinct control points it has
+  Index ControlPoints = 0;    ///< distinct ones
+  std::vector<FitRound> Rounds;
+  Index ShapePoints = 0; ///< distinct control points that the shape was fitted with
+  double ShapeRms = 0.0, ShapeMaximum = 0.0; ///< distance of the samples on the surface
+  Index VoxelsInside = 0;                    ///< voxels that the shape passes through
+  /// The least determinant of d(X, Y, Z)/d(u, v, w) at all voxels and at 9 x 9 x 9 points of each
+  /// cell of the shape, in parts of the mean over the voxels.
+  double SmallestJacobian = 0.0;
+  /// Cells of the shape, those of them with a point where that is not positive, and those proven
+  /// positive everywhere.
+  Index ShapeCells = 0, FoldedCells = 0, CertifiedCells = 0;
+  std::vector<std::pair<std::string, double>> Seconds; ///< by topic
+};
+
+/**
+ * Throws std::invalid_argument with a sentence for the user, Aborted when stopped. The result is
+ * the same for any threads.
+ */
+BlockFitResult FitBlocks(const BlockComplex& blocks, const BlockSamples& voxels,
+  const ShapeSamples& shape, const BlockFitOptions& options, const Execution& execution = {});
+}
+
+#endif

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// Bounds of the determinant of d(X, Y, Z)/d(u, v, w) on the Bezier cells of a spline.
+#ifndef trivariate_ShapeJacobian_h
+#define trivariate_ShapeJacobian_h
+
+#include "Execution.h"
+#include "TSpline/BezierMesh.h"
+
+#include <vector>
+
+namespace trivariate
+{
+struct CellJacobian
+{
+  double Sampled = 0.0; ///< the smallest of 9 x 9 x 9 points of the cell, its corners among them
+  /// True: positive on the whole cell. The determinant is a polynomial of degree 8 in each
+  /// direction; its Bernstein coefficients, on the cell or on parts of it, are all positive.
+  bool Certified = false;
+};
+
+/**
+ * One for each cell. The weighted functions must sum to one. About 50 microseconds a cell, eight
+ * times as many where parts are needed.
+ */
+std::vector<CellJacobian> BoundJacobian(
+  const TSpline& spline, const BezierMesh& mesh, const Execution& execution = {});
+}
+
+#endif

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BallBlocks.h"
+#include "ThreadedExecution.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace
+{
+using namespace trivariate;
+
+BlockFitOptions Options(Index most, double shapeTolerance = 0.05)
+{
+  BlockFitOptions options;
+  options.MaximumControlPoints = most;
+  options.ShapeTolerance = shapeTolerance;
+  return options;
+}
+
+// With the ball's own parameters the ramp at its edge is one direction of the layers: a tenth of
+// the error of the same voxels in the image's own directions, at the same number of control points.
+TEST(BlockFit, BeatsTheGridOnABall)
+{
+  const BallPhantom ball(36);
+  const BlockFitResult fit = FitBlocks(
+    ball.Map.Blocks, ball.Voxels, ball.Map.Nodes(16), Options(1800), ThreadedExecution(2));
+  EXPECT_EQ(Validate(fit.Spline), "");
+  EXPECT_LE(fit.ControlPoints, 1800);
+  EXPECT_EQ(fit.Rounds.back().ControlPoints, fit.ControlPoints);
+  EXPECT_LT(100.0 * fit.Rounds.back().Rms, 0.4);
+  EXPECT_LE(fit.ShapeRms, 0.05);
+  EXPECT_LT(fit.ShapePoints, 500);
+  EXPECT_EQ(fit.VoxelsInside, ball.Voxels.Count());
+  EXPECT_GT(fit.SmallestJacobian, 0.1);
+
+  GridSamples grid;
+  grid.Size = { 36, 36, 36 };
+  grid.Values = ball.Grid.data();
+  grid.Mask = ball.Mask.data();
+  FitOptions options;
+  options.MaximumControlPoints = 1800;
+  const FitResult identity = FitGrid(grid, options, ThreadedExecution(2));
+  EXPECT_GT(identity.Rounds.back().Rms, 10.0 * fit.Rounds.back().Rms);
+}
+
+TEST(BlockFit, NeedsNoMoreThanTheTolerance)
+{
+  const BallPhantom ball(24);
+  BlockFitOptions options = Options(3000, 0.1);
+  options.RmsTolerance = 0.02;
+  const BlockFitResult fit = FitBlocks(ball.Map.Blocks, ball.Voxels, {}, options);
+  EXPECT_LE(fit.Rounds.back().Rms, 0.02);
+  EXPECT_LT(fit.ControlPoints, 1500);
+  options.RmsTolerance = 0.0;
+  options.MaximumErrorTolerance = 0.1;
+  const BlockFitResult other = FitBlocks(ball.Map.Blocks, ball.Voxels, {}, options);
+  EXPECT_LE(other.Rounds.back().MaximumError, 0.1);
+}
+
+TEST(BlockFit, IsTheSameForAnyThreads)
+{
+  const BallPhantom ball(20);
+  const auto fit = [&ball](int threads)
+  {
+    return FitBlocks(
+      ball.Map.Blocks, ball.Voxels, ball.Map.Nodes(6), Options(500), ThreadedExecution(threads));
+  };
+  const BlockFitResult one = fit(1), three = fit(3);
+  EXPECT_EQ(one.Spline.Functions, three.Spline.Functions);
+  EXPECT_EQ(one.Spline.Weights, three.Spline.Weights);
+  EXPECT_EQ(one.Spline.ControlPoints, three.Spline.ControlPoints);
+}
+
+TEST(BlockFit, RefusesAndStops)
+{
+  const BallPhantom ball(20);
+  const auto refusal = [&ball](BlockSamples voxels, const BlockFitOptions& options) -> std::string
+  {
+    try
+    {
+      FitBlocks(ball.Map.Blocks, voxels, {}, options);
+    }
+    catch (const std::invalid_argument& error)
+    {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(refusal({}, Options(500)).find("no voxel"), std::string::npos);
+  EXPECT_NE(refusal(ball.Voxels, Options(200)).find("at least 232"), std::string::npos);
+  BlockSamples bad = ball.Voxels;
+  bad.Parameters[0] = 17.0;
+  EXPECT_NE(refusal(bad, Options(500)).find("voxel 0"), std::string::npos);
+  bad = ball.Voxels;
+  bad.Values[3] = NAN;
+  EXPECT_NE(refusal(bad, Options(500)).find("not a finite number"), std::string::npos);
+
+  int calls = 0;
+  Execution stopping;
+  stopping.Continue = [&calls](double done)
+  {
+    EXPECT_GE(done, 0.0);
+    EXPECT_LE(done, 1.0);
+    return ++calls < 10;
+  };
+  EXPECT_THROW(FitBlocks(ball.Map.Blocks, ball.Voxels, {}, Options(500), stopping), Aborted);
+}
+}
