@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BlockFit.h"
 
-#include "BlockSpline.h"
+#include "BlockFitInput.h"
 #include "RefinementMarks.h"
 #include "ScatteredSystem.h"
+#include "ShapeInverse.h"
 #include "ShapeJacobian.h"
 #include "TSpline/Evaluator.h"
-#include "TSpline/InverseMap.h"
 
 #include <algorithm>
 #include <chrono>
@@ -26,67 +26,11 @@ constexpr double FinalTolerance = 1e-4;
 constexpr int FinalIterations = 400;
 constexpr double RmsFloor = 1e-11;
 
-// Points of the surface count more than those inside, where voxels find their own parameters.
-constexpr float SurfaceWeight = 25.0f;
-
-void CheckInput(
-  const BlockComplex& blocks, const BlockSamples& voxels, const BlockFitOptions& options)
-{
-  const auto fail = [](const std::string& what) { throw std::invalid_argument(what); };
-  if (voxels.Count() == 0)
-  {
-    fail("The domain has no voxel to fit.");
-  }
-  if (!(options.RmsTolerance >= 0.0) || !(options.MaximumErrorTolerance >= 0.0) ||
-      !(options.ShapeTolerance >= 0.0) || !(options.Spacing > 0.0))
-  {
-    fail("A tolerance is negative or not a number, or the distance of voxels is not positive.");
-  }
-  for (Index i = 0; i < voxels.Count(); ++i)
-  {
-    const double* p = &voxels.Parameters[3 * i];
-    if (!std::isfinite(p[0] + p[1] + p[2]) || blocks.BlockAt({ p[0], p[1], p[2] }) < 0)
-    {
-      fail("The parameter of voxel " + std::to_string(i) + ", (" + std::to_string(p[0]) + ", " +
-           std::to_string(p[1]) + ", " + std::to_string(p[2]) + "), is in no block of the domain.");
-    }
-  }
-}
-
 // Stiffness of cells that fold, multiplied by four for each further attempt.
 constexpr float FirstStiffness = 1e-4f;
 constexpr int FoldAttempts = 6;
-
-// Knot intervals along the edge of a block: halved until they are about a voxel.
-int DepthOf(const BlockComplex& blocks, const BlockSamples& voxels, double spacing)
-{
-  std::vector<std::array<double, 6>> bounds(
-    blocks.Size(), { 1e300, -1e300, 1e300, -1e300, 1e300, -1e300 });
-  for (Index i = 0; i < voxels.Count(); ++i)
-  {
-    const double* p = &voxels.Parameters[3 * i];
-    std::array<double, 6>& box = bounds[blocks.BlockAt({ p[0], p[1], p[2] })];
-    for (int a = 0; a < 3; ++a)
-    {
-      box[2 * a] = std::min(box[2 * a], voxels.Places[3 * i + a]);
-      box[2 * a + 1] = std::max(box[2 * a + 1], voxels.Places[3 * i + a]);
-    }
-  }
-  double longest = 1.0;
-  for (const auto& box : bounds)
-  {
-    longest = std::max({ longest, box[1] - box[0], box[3] - box[2], box[5] - box[4] });
-  }
-  const LatticePoint extent = blocks.Extent();
-  const double boxes = double(extent[0]) * extent[1] * extent[2];
-  int depth = 1;
-  // No more than 128 million boxes of the index grid, of which refinement keeps a byte each.
-  while (depth < 8 && spacing * (1 << depth) < longest && boxes * std::pow(8.0, depth + 1) < 128e6)
-  {
-    ++depth;
-  }
-  return depth;
-}
+// Stiffness that moves the shape away from its samples by more than this is taken back.
+constexpr double MostMoved = 1.25;
 
 // One stage: some components are fitted to some samples, and the spline is refined for them.
 struct Stage
@@ -103,13 +47,14 @@ struct Stage
 class BlockFitter
 {
 public:
-  BlockFitter(const BlockComplex& blocks, const BlockSamples& voxels,
+  BlockFitter(const BlockComplex& blocks, const BlockSamples& voxels, const ShapeSamples& shape,
     const BlockFitOptions& options, const Execution& execution)
     : Blocks(blocks)
     , Voxels(voxels)
+    , Shape(shape.Parameters.empty() ? ShapeSamples{ voxels.Parameters, voxels.Places } : shape)
     , Options(options)
     , Run(execution)
-    , Layout(blocks, DepthOf(blocks, voxels, options.Spacing))
+    , Layout(blocks, KnotDepth(blocks, Shape, options.Spacing))
     , Marks([this](const TSpline& spline) { return this->Layout.Share(spline).Count(); })
   {
     this->Result.Spline = this->Layout.MakeCoarsest(options.CoarsestCells, voxels.Components);
@@ -130,9 +75,9 @@ public:
     };
   }
 
-  BlockFitResult Fit(const ShapeSamples& shape)
+  BlockFitResult Fit()
   {
-    this->FitShape(shape);
+    this->FitShape();
     ScatteredSamples samples;
     samples.Parameters = this->FindParameters();
     samples.Components = this->Voxels.Components;
@@ -173,37 +118,9 @@ private:
     this->LastLap = now;
   }
 
-  void FitShape(const ShapeSamples& shape)
+  void FitShape()
   {
-    const ShapeSamples& points = shape.Parameters.empty()
-                                   ? ShapeSamples{ this->Voxels.Parameters, this->Voxels.Places }
-                                   : shape;
-    ScatteredSamples samples;
-    samples.Parameters = points.Parameters;
-    samples.Components = 3;
-    const Index n = samples.Count();
-    std::vector<char> onSurface(n, 0);
-    for (Index i = 0; i < n; ++i)
-    {
-      const double* p = &samples.Parameters[3 * i];
-      const Index b = this->Blocks.BlockAt({ p[0], p[1], p[2] });
-      for (int face = 0; b >= 0 && face < 6; ++face)
-      {
-        const int a = face / 2, side = face % 2;
-        const FaceTwin& twin = this->Blocks.Twin({ b, a, side });
-        const bool isOuter =
-          !twin.Exists() || this->Blocks.Segments[twin.Face.Block] != this->Blocks.Segments[b];
-        onSurface[i] |= isOuter && p[a] == this->Blocks.Origins[b][a] + side;
-      }
-      samples.Weights.push_back(onSurface[i] ? SurfaceWeight : 1.0f);
-    }
-    for (int a = 0; a < 3; ++a)
-    {
-      for (Index i = 0; i < n; ++i)
-      {
-        samples.Values.push_back(points.Places[3 * i + a]);
-      }
-    }
+    const ScatteredSamples samples = SamplesOfShape(this->Blocks, this->Shape);
     ScatteredSystem system(samples, 0, this->Layout, this->Run);
     Stage stage{ system, 0, std::vector<double>(3, 1.0), this->Options.ShapeTolerance, 0.0,
       std::min(this->Options.MaximumShapePoints, this->Options.MaximumControlPoints), true };
@@ -349,11 +266,13 @@ private:
     return !this->Folded.empty();
   }
 
-  // Makes cells that fold stiffer, and those around them, as long as there are some; whether the
-  // shape then does not fold and is still near enough.
+  // Makes cells that fold stiffer, and those around them, as long as there are some and the shape
+  // stays where it is; whether it then does not fold and is near enough.
   bool Unfold(Stage& stage)
   {
     const BezierMesh& mesh = stage.System.Mesh();
+    const double farthest =
+      std::max(stage.RmsTolerance, MostMoved * this->Result.Rounds.back().Rms);
     stage.Stiffness.resize(mesh.Size(), 0.0f);
     for (int attempt = 0; this->FindFolds(stage); ++attempt)
     {
@@ -371,10 +290,19 @@ private:
           stage.Stiffness[cell] = std::max(FirstStiffness, 4.0f * stage.Stiffness[cell]);
         }
       }
+      const std::vector<double> before = this->Result.Spline.ControlPoints;
       stage.System.SetStiffness(stage.Stiffness);
       this->Solve(stage, FinalTolerance, FinalIterations);
+      const FitRound round = this->Result.Rounds.back();
       this->Result.Rounds.pop_back();
       this->Measure(stage);
+      if (this->Result.Rounds.back().Rms > farthest)
+      {
+        this->Result.Spline.ControlPoints = before;
+        this->Result.Rounds.back() = round;
+        stage.System.ComputeResiduals(this->Result.Spline);
+        return false;
+      }
     }
     return this->IsGoodEnough(stage);
   }
@@ -402,25 +330,15 @@ private:
     this->Folded.clear();
   }
 
-  // Where the shape passes through the voxels; those it does not reach keep their parameters.
   std::vector<double> FindParameters()
   {
     const BezierMesh mesh(this->Result.Spline, this->Run);
-    const InverseMap inverse(this->Result.Spline, mesh, this->Run);
-    const Index n = this->Voxels.Count();
-    std::vector<double> parameters(3 * n);
-    std::vector<std::uint8_t> found(n);
-    inverse.Find(n, this->Voxels.Places.data(), parameters.data(), found.data(), this->Run);
-    for (Index i = 0; i < n; ++i)
-    {
-      if (!found[i])
-      {
-        std::copy_n(&this->Voxels.Parameters[3 * i], 3, &parameters[3 * i]);
-      }
-      this->Result.VoxelsInside += found[i];
-    }
-    this->ReportJacobian(mesh, parameters);
-    return parameters;
+    const std::vector<double>& starts = this->Voxels.Parameters;
+    FoundParameters found = FindParametersOnShape(
+      this->Result.Spline, mesh, this->Blocks, this->Voxels.Places, starts, this->Shape, this->Run);
+    this->Result.VoxelsInside = found.Inside;
+    this->ReportJacobian(mesh, found.Parameters);
+    return std::move(found.Parameters);
   }
 
   void ReportJacobian(const BezierMesh& mesh, const std::vector<double>& parameters)
@@ -450,6 +368,7 @@ private:
 
   const BlockComplex& Blocks;
   const BlockSamples& Voxels;
+  ShapeSamples Shape;
   const BlockFitOptions& Options;
   Execution Run;
   Clock::time_point Start = Clock::now(), LastLap = Start;
@@ -467,7 +386,7 @@ private:
 BlockFitResult FitBlocks(const BlockComplex& blocks, const BlockSamples& voxels,
   const ShapeSamples& shape, const BlockFitOptions& options, const Execution& execution)
 {
-  CheckInput(blocks, voxels, options);
-  return BlockFitter(blocks, voxels, options, execution).Fit(shape);
+  CheckBlockFit(blocks, voxels, shape, options);
+  return BlockFitter(blocks, voxels, shape, options, execution).Fit();
 }
 }

@@ -21,15 +21,15 @@ namespace trivariate
 /// Voxels with their parameters in the space of the complex.
 struct BlockSamples
 {
-  std::vector<double> Parameters; ///< (u, v, w) of each
+  std::vector<double> Parameters; ///< (u, v, w) of each; none: where the shape has them
   std::vector<double> Places;     ///< (X, Y, Z) of each
   int Components = 1;
   std::vector<double> Values; ///< Components blocks, each with a number for each voxel
 
-  Index Count() const { return static_cast<Index>(this->Parameters.size() / 3); }
+  Index Count() const { return static_cast<Index>(this->Places.size() / 3); }
 };
 
-/// Points of the shape, such as the nodes of a block mesh; none: the voxels are used.
+/// Points of the shape, such as the nodes of a block mesh; none: the voxels, at their parameters.
 struct ShapeSamples
 {
   std::vector<double> Parameters; ///< (u, v, w) of each; on a face of a block: of the surface

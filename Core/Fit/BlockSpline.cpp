@@ -17,6 +17,42 @@ LocalKnots Reversed(const LocalKnots& k, std::int32_t one)
   return { one - k[4], one - k[3], one - k[2], one - k[1], one - k[0] };
 }
 
+// Sets of numbers; the root of each is its smallest.
+class Forest
+{
+public:
+  explicit Forest(Index n)
+    : Parent(n)
+  {
+    std::iota(this->Parent.begin(), this->Parent.end(), Index(0));
+  }
+
+  Index Root(Index i)
+  {
+    while (this->Parent[i] != i)
+    {
+      i = this->Parent[i] = this->Parent[this->Parent[i]];
+    }
+    return i;
+  }
+
+  void Join(Index i, Index j)
+  {
+    const Index a = this->Root(i), b = this->Root(j);
+    this->Parent[std::max(a, b)] = std::min(a, b);
+  }
+
+private:
+  std::vector<Index> Parent;
+};
+
+// A trace as the key of a map.
+BlendingFunction KeyOf(const std::array<LocalKnots, 2>& knots, Index face)
+{
+  const auto f = static_cast<std::int32_t>(face);
+  return { knots[0], knots[1], { f, f, f, f, f } };
+}
+
 // The knot lines of the traces on a face: bit 0 of unit square (s, t) says that its low side in
 // direction s is on one, bit 1 the same of t.
 class TraceMesh
@@ -235,33 +271,15 @@ void BlockSpline::VisitTraces(const TSpline& spline, const Visit& visit) const
 //------------------------------------------------------------------------------
 SharedPoints BlockSpline::Share(const TSpline& spline) const
 {
-  // A forest in which every function points to one with a smaller number, roots to themselves.
-  std::vector<Index> parent(spline.Functions.size());
-  std::iota(parent.begin(), parent.end(), Index(0));
-  const auto root = [&parent](Index i)
-  {
-    while (parent[i] != i)
-    {
-      i = parent[i] = parent[parent[i]];
-    }
-    return i;
-  };
+  Forest functions(spline.Size());
   BlendingFunctionMap functionOf;
-  this->VisitTraces(spline,
-    [&](Index i, const BlockFace&, const Trace& trace)
-    {
-      const auto face = static_cast<std::int32_t>(trace.Face);
-      const Index other =
-        functionOf.Insert({ trace.Knots[0], trace.Knots[1], { face, face, face, face, face } }, i)
-          .first;
-      const Index a = root(i), b = root(other);
-      parent[std::max(a, b)] = std::min(a, b);
-    });
+  this->VisitTraces(spline, [&](Index i, const BlockFace&, const Trace& trace)
+    { functions.Join(i, functionOf.Insert(KeyOf(trace.Knots, trace.Face), i).first); });
   SharedPoints shared;
   shared.PointOf.resize(spline.Functions.size());
   for (Index i = 0; i < spline.Size(); ++i)
   {
-    const Index first = root(i);
+    const Index first = functions.Root(i);
     if (first == i)
     {
       shared.PointOf[i] = shared.Count();
@@ -295,19 +313,65 @@ std::vector<RefinementMark> BlockSpline::CrossedTraces(const TSpline& spline) co
 }
 
 //------------------------------------------------------------------------------
+// Which direction of its block direction d of a trace is, and whether it runs backwards there.
+std::pair<int, bool> BlockSpline::AlongTrace(const BlockFace& face, Index traceFace, int d) const
+{
+  const std::array<int, 2> axes = TangentialAxes(face.Axis);
+  if (traceFace == 6 * face.Block + 2 * face.Axis + face.Side)
+  {
+    return { axes[d], false };
+  }
+  const FaceTwin& twin = this->Complex->Twin(face);
+  return { axes[twin.Swapped ? 1 - d : d], twin.Flipped[d] };
+}
+
+//------------------------------------------------------------------------------
 // The split at a knot line of a trace, as its function sees it.
 RefinementMark BlockSpline::ToMark(
   Index function, const BlockFace& face, Index traceFace, int d, std::int32_t knot) const
 {
-  const std::array<int, 2> axes = TangentialAxes(face.Axis);
-  int direction = axes[d];
-  if (traceFace != 6 * face.Block + 2 * face.Axis + face.Side)
+  const auto [direction, isFlipped] = this->AlongTrace(face, traceFace, d);
+  return { function, direction,
+    this->Complex->Origins[face.Block][direction] * this->One +
+      (isFlipped ? this->One - knot : knot) };
+}
+
+//------------------------------------------------------------------------------
+std::vector<Index> BlockSpline::LinkSplits(const TSpline& spline) const
+{
+  Forest splits(12 * spline.Size());
+  BlendingFunctionMap functionOf;
+  std::vector<BlockFace> faceOf; // of the first function of each trace
+  std::vector<Index> firstOf;
+  this->VisitTraces(spline,
+    [&](Index i, const BlockFace& face, const Trace& trace)
+    {
+      // Traces are numbered; the first function of each and its face are kept under that number.
+      const auto known = static_cast<Index>(faceOf.size());
+      const auto [number, isNew] = functionOf.Insert(KeyOf(trace.Knots, trace.Face), known);
+      if (isNew)
+      {
+        faceOf.push_back(face);
+        firstOf.push_back(i);
+        return;
+      }
+      for (int d = 0; d < 2; ++d)
+      {
+        const auto [own, ownFlipped] = this->AlongTrace(face, trace.Face, d);
+        const auto [other, otherFlipped] = this->AlongTrace(faceOf[number], trace.Face, d);
+        for (int span = 0; span < 4; ++span)
+        {
+          splits.Join(SplitNumber(i, own, ownFlipped ? 3 - span : span),
+            SplitNumber(firstOf[number], other, otherFlipped ? 3 - span : span));
+        }
+      }
+    });
+  std::vector<Index> first(12 * spline.Size());
+  for (std::size_t n = 0; n < first.size(); ++n)
   {
-    const FaceTwin& twin = this->Complex->Twin(face);
-    knot = twin.Flipped[d] ? this->One - knot : knot;
-    direction = axes[twin.Swapped ? 1 - d : d];
+    first[n] = splits.Root(static_cast<Index>(n));
   }
-  return { function, direction, this->Complex->Origins[face.Block][direction] * this->One + knot };
+  return first;
 }
 
 //------------------------------------------------------------------------------

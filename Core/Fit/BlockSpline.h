@@ -48,6 +48,16 @@ public:
   /// Points are numbered by their first functions. O(n).
   SharedPoints Share(const TSpline& spline) const;
 
+  /// A way to split a function: in the middle of one of the four spans of its knots in a direction.
+  static Index SplitNumber(Index function, int direction, int span)
+  {
+    return 12 * function + 4 * direction + span;
+  }
+
+  /// Splits along a common face are made on both sides: of each split (SplitNumber) the first of
+  /// those that are made together.
+  std::vector<Index> LinkSplits(const TSpline& spline) const;
+
   /// Splits that functions need because knots of other traces on the same face cross theirs. As
   /// long as there are some, the traces on the two sides need not be the same. O(n 2^Depth).
   std::vector<RefinementMark> CrossedTraces(const TSpline& spline) const;
@@ -61,6 +71,7 @@ private:
     std::array<LocalKnots, 2> Knots;
   };
   Trace TraceOf(const BlendingFunction& f, Index block, int axis, int side) const;
+  std::pair<int, bool> AlongTrace(const BlockFace& face, Index traceFace, int d) const;
   RefinementMark ToMark(
     Index function, const BlockFace& face, Index traceFace, int d, std::int32_t knot) const;
   template <typename Visit>

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What each split of each function would bring: the squared error that the part of its first child
-// that is orthogonal to its parent explains. Residuals are summed against the children exactly;
-// norms are those of the functions over the samples times the ratio of the univariate ones.
+// What each split of each function would bring: the squared error that the part of a child that is
+// orthogonal to its parent explains. Where functions share control points, splits along a common
+// face are one, and the parent is the sum of all functions of the point. Residuals are summed
+// against the children exactly; norms are those of the functions over the samples times the ratio
+// of the univariate ones.
 #include "ScatteredSystem.h"
 
 #include <algorithm>
@@ -28,11 +30,15 @@ std::array<std::int32_t, 4> MiddlesOf(const LocalKnots& k)
   return middles;
 }
 
-LocalKnots FirstChild(const LocalKnots& k, std::int32_t knot)
+// The child of a split in the middle of a span that is farther from the function's other end: the
+// one without a trace if the function has one in that direction, and the same from both sides of a
+// face on which the direction runs backwards.
+LocalKnots ChildOf(const LocalKnots& k, int span, std::int32_t knot)
 {
   std::array<std::int32_t, 6> all{ k[0], k[1], k[2], k[3], k[4], knot };
   std::sort(all.begin(), all.end());
-  return { all[0], all[1], all[2], all[3], all[4] };
+  const int first = span < 2 ? 0 : 1;
+  return { all[first], all[first + 1], all[first + 2], all[first + 3], all[first + 4] };
 }
 
 // The integral of the product of two cubics on an interval of the given width.
@@ -51,12 +57,12 @@ double Integral(const BernsteinForm& f, const BernsteinForm& g, double width)
   return sum * width;
 }
 
-// The split of a univariate function: the first child less Share times the parent is orthogonal to
-// the parent, and its squared norm is Ratio times the parent's.
+// The split of a univariate function p: the inner products of its child with p and with itself, in
+// parts of the squared norm of p.
 struct UnivariateSplit
 {
   std::int32_t Knot = -1;
-  double Share = 0.0, Ratio = 0.0;
+  double WithParent = 0.0, WithItself = 0.0;
 };
 
 std::array<UnivariateSplit, 4> SplitsOf(const KnotLine& line, const LocalKnots& k)
@@ -73,7 +79,7 @@ std::array<UnivariateSplit, 4> SplitsOf(const KnotLine& line, const LocalKnots& 
     {
       continue;
     }
-    const LocalKnots child = FirstChild(k, middles[s]);
+    const LocalKnots child = ChildOf(k, s, middles[s]);
     double pp = 0.0, cp = 0.0, cc = 0.0;
     std::array<std::int32_t, 6> breaks{ k[0], k[1], k[2], k[3], k[4], middles[s] };
     std::sort(breaks.begin(), breaks.end());
@@ -89,12 +95,12 @@ std::array<UnivariateSplit, 4> SplitsOf(const KnotLine& line, const LocalKnots& 
         cc += Integral(c, c, high - low);
       }
     }
-    splits[s] = { middles[s], cp / pp, (cc - cp * cp / pp) / pp };
+    splits[s] = { middles[s], cp / pp, cc / pp };
   }
   return splits;
 }
 
-// The forms of a function and of its four first children on the two halves of a cell.
+// The forms of a function and of its four children on the two halves of a cell.
 struct HalfForms
 {
   std::array<BernsteinForm, 2> Parent{};
@@ -170,7 +176,7 @@ void ScatteredSystem::SumLines(CellBasis& basis, int component, std::vector<doub
           forms[f].Exists[s] = middles[s] >= 0;
           if (middles[s] >= 0)
           {
-            forms[f].Child[s][half] = formOf(FirstChild(k, middles[s]));
+            forms[f].Child[s][half] = formOf(ChildOf(k, s, middles[s]));
           }
         }
       }
@@ -220,30 +226,49 @@ void ScatteredSystem::AddGains(int component, double factor, std::vector<SplitGa
       splits[a].push_back(SplitsOf(mesh.KnotLines()[a], k));
     }
   }
-  const bool isFirst = gains.empty();
-  std::size_t next = 0;
+  // Of each control point: its function's squared norm, and the sum of residual times it.
+  std::vector<double> norm2(this->Shared.Count(), 0.0), residual(this->Shared.Count(), 0.0);
   for (Index i = 0; i < functions; ++i)
   {
-    const double* sum = &sums[SumsOfFunction * i];
-    for (int a = 0; a < 3; ++a)
+    norm2[this->Shared.PointOf[i]] += this->SquaredNorms[i];
+    residual[this->Shared.PointOf[i]] += sums[SumsOfFunction * i];
+  }
+  // Of each set of splits that are made together: sums over its functions, kept with the first.
+  struct Together
+  {
+    double Norm2 = 0.0, Residual = 0.0;
+  };
+  const auto splitOf = [&](Index i, int a, int s) -> const UnivariateSplit&
+  { return splits[a][mesh.UnivariateOf(i, a)][s]; };
+  std::vector<Together> together(this->LinkedSplits.size());
+  for (Index n = 0; n < static_cast<Index>(together.size()); ++n)
+  {
+    Together& sum = together[this->LinkedSplits[n]];
+    sum.Norm2 += this->SquaredNorms[n / 12];
+    sum.Residual += sums[SumsOfFunction * (n / 12) + 1 + n % 12];
+  }
+  const bool isFirst = gains.empty();
+  std::size_t next = 0;
+  for (Index n = 0; n < static_cast<Index>(together.size()); ++n)
+  {
+    const Index i = n / 12;
+    const int a = static_cast<int>(n % 12 / 4);
+    const UnivariateSplit& split = splitOf(i, a, static_cast<int>(n % 4));
+    if (split.Knot < 0 || this->LinkedSplits[n] != n)
     {
-      for (int s = 0; s < 4; ++s)
-      {
-        const UnivariateSplit& split = splits[a][mesh.UnivariateOf(i, a)][s];
-        if (split.Knot < 0)
-        {
-          continue;
-        }
-        if (isFirst)
-        {
-          gains.push_back({ i, a, split.Knot, 0.0 });
-        }
-        const double inner = sum[1 + 4 * a + s] - split.Share * sum[0];
-        const double norm2 = split.Ratio * this->SquaredNorms[i];
-        gains[next++].SquaredError +=
-          this->SquaredNorms[i] > LeastNorm ? factor * inner * inner / norm2 : 0.0;
-      }
+      continue;
     }
+    if (isFirst)
+    {
+      gains.push_back({ i, a, split.Knot, 0.0 });
+    }
+    const Index point = this->Shared.PointOf[i];
+    const double inner = split.WithParent * together[n].Norm2;
+    const double share = inner / norm2[point];
+    const double rest = split.WithItself * together[n].Norm2 - share * inner;
+    const double explained = together[n].Residual - share * residual[point];
+    gains[next++].SquaredError +=
+      this->SquaredNorms[i] > LeastNorm ? factor * explained * explained / rest : 0.0;
   }
 }
 }

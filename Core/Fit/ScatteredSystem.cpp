@@ -99,6 +99,7 @@ void ScatteredSystem::Update(const TSpline& spline)
 {
   this->Cells = std::make_unique<BezierMesh>(spline, this->Run);
   this->Shared = this->Layout.Share(spline);
+  this->LinkedSplits = this->Layout.LinkSplits(spline);
   const BezierMesh& mesh = *this->Cells;
 
   // Functions are numbered along a space-filling curve, cells by the first of theirs.

@@ -109,8 +109,9 @@ private:
   std::vector<double> Ranges, Means;
   std::unique_ptr<BezierMesh> Cells;
   SharedPoints Shared;
-  std::vector<Index> Order;       // cells along a space-filling curve
-  std::vector<Index> SampleBegin; // of each cell in Sorted
+  std::vector<Index> LinkedSplits; // see BlockSpline::LinkSplits
+  std::vector<Index> Order;        // cells along a space-filling curve
+  std::vector<Index> SampleBegin;  // of each cell in Sorted
   std::vector<std::int32_t> Sorted;
   std::vector<std::vector<double>> Residuals; // of each component, in the order of Sorted
   std::vector<double> SquaredNorms;           // of each function over the samples
