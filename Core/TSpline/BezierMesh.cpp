@@ -392,8 +392,6 @@ Index BezierMesh::FindCell(double u, double v, double w) const
   std::array<std::int32_t, 3> span;
   int atKnot = 0; // bits of the directions in which x is at the low end of its interval
   for (int a = 0; a < 3; ++a)
-  const GridIndex spans = { this->FindSpan(0, u), this->FindSpan(1, v), this->FindSpan(2, w) };
-  if (spans[0] < 0 || spans[1] < 0 || spans[2] < 0)
   {
     span[a] = this->FindSpan(a, x[a]);
     if (span[a] < 0)
@@ -418,40 +416,11 @@ Index BezierMesh::FindCell(double u, double v, double w) const
 std::int32_t BezierMesh::CellOfSpans(const std::array<std::int32_t, 3>& span) const
 {
   const auto [i, j, k] = span;
-  const Index cell = this->CellOfBox(spans);
-  if (cell != Nothing)
-  {
-    return cell;
-  }
-  // At a knot with nothing above it, the cell below.
-  const std::array<double, 3> x = { u, v, w };
-  for (int below = 1; below < 8; ++below)
-  {
-    GridIndex box = spans;
-    bool exists = true;
-    for (int a = 0; a < 3; ++a)
-    {
-      box[a] -= below >> a & 1;
-      exists = exists && box[a] >= 0 && (box[a] == spans[a] || x[a] == this->Lines[a][spans[a]]);
-    }
-    const Index found = exists ? this->CellOfBox(box) : Nothing;
-    if (found != Nothing)
-    {
-      return found;
-    }
-  }
-  return Nothing;
-}
-
-//------------------------------------------------------------------------------
-Index BezierMesh::CellOfBox(const GridIndex& box) const
-{
   std::int32_t entry = -2;
   for (int depth = this->Depth; entry < Nothing; --depth)
   {
     const int shift = EntryShift(depth);
-    const int quarters =
-      (((box[2] >> shift) & 3) * 4 + ((box[1] >> shift) & 3)) * 4 + ((box[0] >> shift) & 3);
+    const int quarters = (((k >> shift) & 3) * 4 + ((j >> shift) & 3)) * 4 + ((i >> shift) & 3);
     entry = this->Tree[-2 - entry].Entries[quarters];
   }
   return entry;

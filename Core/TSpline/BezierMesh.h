@@ -80,7 +80,6 @@ public:
 
   /// The cell that holds a point of parameter space, -1 if there is none. Cells are closed at their
   /// low ends and open at their high ends, except where no cell follows.
-  /// low ends and open at their high ends, except where nothing lies beyond.
   Index FindCell(double u, double v, double w) const;
 
   /// Index of the knot interval of direction a that holds x (half open, closed at the end of the
@@ -100,9 +99,6 @@ public:
   }
 
 private:
-  /// The cell of a unit box of the index grid, -1 if there is none.
-  Index CellOfBox(const GridIndex& box) const;
-
   std::array<KnotLine, 3> Lines;
   std::vector<IndexBox> Boxes;
   std::vector<std::int32_t> Levels;
