@@ -5,10 +5,11 @@
 #include "Domain/ClosestRotation.h"
 #include "MonotoneMap.h"
 #include "Multigrid.h"
-#include "ParameterSystem.h"
+#include "PolynomialGradient.h"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <sstream>
 #include <stdexcept>
 
@@ -24,6 +25,9 @@ constexpr int MostIterations = 500;
 // Of the penalty that holds a parameter to its planes, in parts of what a voxel resists. Ten times
 // as much takes three times as many iterations; a tenth leaves ten times as large deviations.
 constexpr double Stiffness = 100.0;
+
+// Of the trilinear energy beside that of polynomials, against the modes that these do not see.
+constexpr double TrilinearShare = 0.3;
 
 class Solver
 {
@@ -44,6 +48,11 @@ public:
       }
     }
     FindCells(voxels, surface, sampled, this->Cells, execution);
+    if (options.Gradient == ParameterGradient::Polynomial)
+    {
+      this->Polynomials =
+        std::make_unique<PolynomialGradient>(this->Cells, execution.Part(1.0, 1.0));
+    }
     this->Result.Low = this->Cells.Low;
     this->Result.Size = this->Cells.Size;
     this->Result.Spacing = voxels.Spacing;
@@ -54,24 +63,37 @@ public:
   {
     const Execution start = execution.Part(0.0, 0.0);
     const PlaneSamples& samples = this->Samples[axis];
-    StencilMatrix matrix;
-    std::vector<double> b;
+    const double epsilon = this->Options.Epsilon;
+    const TargetField targets = FillTargets(this->Cells, this->Voxels, axis, start);
+    const auto matrixFor = [&](double energy)
+    { return AssembleMatrix(this->Cells, samples, targets, epsilon, energy, Stiffness, start); };
+    const StencilMatrix matrix = matrixFor(1.0);
+    std::vector<double> b =
+      AssembleRightHandSide(this->Cells, targets, epsilon, matrix.Planes(), start);
+    LinearOperator times = [&matrix](const double* x, double* y, const Execution& here)
+    { Multiply(matrix, x, y, here); };
+    StencilMatrix held; // what is left of the trilinear energy beside the polynomials'
+    if (this->Polynomials)
     {
-      const TargetField targets = FillTargets(this->Cells, this->Voxels, axis, start);
-      matrix =
-        AssembleMatrix(this->Cells, samples, targets, this->Options.Epsilon, 1.0, Stiffness, start);
-      b =
-        AssembleRightHandSide(this->Cells, targets, this->Options.Epsilon, matrix.Planes(), start);
+      held = matrixFor(TrilinearShare);
+      for (double& value : b)
+      {
+        value *= TrilinearShare;
+      }
+      this->Polynomials->AddRightHandSide(targets, epsilon, b, start);
+      times = [&](const double* x, double* y, const Execution& here)
+      {
+        Multiply(held, x, y, here);
+        this->Polynomials->AddEnergy(targets, epsilon, x, y, here);
+      };
     }
     Multigrid multigrid(matrix, start);
     std::vector<double> u(matrix.Length(), 0.0);
     ParameterSolve& record = this->Result.Solves[axis];
     std::vector<double>& lengths = this->Result.Lengths[axis];
     this->Result.Coordinates[axis] = samples.Coordinates;
-    const LinearSolve solve =
-      SolveConjugateGradients([&matrix](const double* x, double* y, const Execution& here)
-        { Multiply(matrix, x, y, here); },
-        multigrid, b, this->Options.Tolerance, MostIterations, u, execution.Part(0.1, 1.0));
+    const LinearSolve solve = SolveConjugateGradients(
+      times, multigrid, b, this->Options.Tolerance, MostIterations, u, execution.Part(0.1, 1.0));
     record.Iterations = solve.Iterations;
     record.Residual = solve.Residual;
     lengths.assign(1, 0.0);
@@ -81,6 +103,44 @@ public:
     {
       this->Result.Values[3 * node + axis] = u[node];
     }
+  }
+
+  // The frames become the rotations closest to the gradients of what was solved.
+  void FollowGradients(const Execution& execution)
+  {
+    const ParameterCells& cells = this->Cells;
+    this->Followed.resize(cells.Nodes());
+    ForEachSlab(cells.Size, cells.Size[2], execution,
+      [&](Index k)
+      {
+        const Index begin = cells.NodeAt(0, 0, k);
+        for (Index node = begin; node < begin + cells.Size[0] * cells.Size[1]; ++node)
+        {
+          if (cells.Known[node] == 2)
+          {
+            Matrix3d gradients;
+            for (int a = 0; a < 3; ++a)
+            {
+              const Index step = a == 0   ? 1
+                                 : a == 1 ? cells.Size[0]
+                                          : cells.Size[0] * cells.Size[1];
+              const double *low = &this->Result.Values[3 * (node - step)],
+                           *high = &this->Result.Values[3 * (node + step)];
+              for (int p = 0; p < 3; ++p)
+              {
+                gradients(p, a) = (high[p] - low[p]) / (2.0 * cells.Spacing[a]);
+              }
+            }
+            this->Followed[node] = Eigen::Quaternionf(ClosestRotation(gradients).cast<float>());
+          }
+        }
+      });
+    this->Voxels.FrameAt = [this, size = this->Voxels.Size](Index id) -> Matrix3d
+    {
+      const Index node =
+        this->Result.At({ id % size[0], id / size[0] % size[1], id / size[0] / size[1] });
+      return this->Followed[node].cast<double>().toRotationMatrix();
+    };
   }
 
   VoxelParameter Finish()
@@ -127,10 +187,12 @@ private:
     record.MeanDeviation = std::sqrt(squares / weights);
   }
 
-  const ParameterVoxels& Voxels;
+  ParameterVoxels Voxels;
   const ParameterOptions& Options;
   ParameterCells Cells;
   std::array<PlaneSamples, 3> Samples;
+  std::unique_ptr<PolynomialGradient> Polynomials;
+  std::vector<Eigen::Quaternionf> Followed;
   VoxelParameter Result;
 };
 }
@@ -149,10 +211,20 @@ VoxelParameter SolveVoxelParameter(const ParameterVoxels& voxels, const Paramete
     throw std::invalid_argument(
       "Tolerance is " + std::to_string(options.Tolerance) + "; it must be from 1e-14 to 0.1.");
   }
-  Solver solver(voxels, surface, options, execution.Part(0.0, 0.05));
-  for (int axis = 0; axis < 3; ++axis)
+  if (options.Rounds < 0)
   {
-    solver.SolveAxis(axis, execution.Part(0.05 + 0.3 * axis, 0.35 + 0.3 * axis));
+    throw std::invalid_argument("There cannot be " + std::to_string(options.Rounds) + " rounds.");
+  }
+  Solver solver(voxels, surface, options, execution.Part(0.0, 0.05));
+  const double share = 0.95 / (3.0 * (options.Rounds + 1));
+  for (int step = 0; step < 3 * (options.Rounds + 1); ++step)
+  {
+    const Execution part = execution.Part(0.05 + share * step, 0.05 + share * (step + 1));
+    if (step > 0 && step % 3 == 0)
+    {
+      solver.FollowGradients(part);
+    }
+    solver.SolveAxis(step % 3, part);
   }
   return solver.Finish();
 }

@@ -121,6 +121,37 @@ TEST(VoxelParameter, FindsTheLengthsOfCubes)
   EXPECT_NEAR(solved.Lengths[2].back(), 0.4 * n, 1e-6 * n);
 }
 
+TEST(VoxelParameter, SolvesWithPolynomials)
+{
+  ParameterOptions options;
+  options.Gradient = ParameterGradient::Polynomial;
+  options.Tolerance = 1e-10;
+  const ParameterShape box = SlantedBox(24);
+  EXPECT_LT(ErrorOf(box, Solve(box, options)).Largest, 1e-8);
+  // The stabilised energy leaves no odd-even waves: as close as trilinear cells come.
+  const ParameterShape bar = TwistedBar(40, 1.0);
+  EXPECT_LT(ErrorOf(bar, Solve(bar, options)).Largest, 0.001);
+  EXPECT_LT(ErrorOf(bar, Solve(bar, options)).Mean, 0.7 * ErrorOf(bar, Solve(bar)).Mean);
+}
+
+TEST(VoxelParameter, FollowsGradients)
+{
+  // Frames that are off by up to 12 degrees; the planes bring the gradients back.
+  ParameterShape shape = UnitAnnulus(32);
+  const auto frame = shape.Frame;
+  shape.Frame = [frame](const Eigen::Vector3d& x) -> Eigen::Matrix3d
+  {
+    return frame(x) *
+           Eigen::AngleAxisd(0.2 * std::sin(0.4 * x[0] + 0.3 * x[1]), Eigen::Vector3d::UnitZ())
+             .toRotationMatrix();
+  };
+  ParameterOptions options;
+  const double once = ErrorOf(shape, Solve(shape, options)).Mean;
+  options.Rounds = 2;
+  const double thrice = ErrorOf(shape, Solve(shape, options)).Mean;
+  EXPECT_LT(thrice, 0.8 * once);
+}
+
 TEST(VoxelParameter, MapsCubesOfUnequalLengthsToTheLattice)
 {
   // Cuts at a quarter and a half: lengths 1 : 1 : 2.
