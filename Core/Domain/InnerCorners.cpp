@@ -17,6 +17,7 @@ constexpr double FirstStep = 0.5;  // of the depth at first
 constexpr int Halvings = 5;
 constexpr int MostRounds = 20;
 constexpr double Enough = 0.1; // a block as good as that is left alone
+constexpr double Flat = 1e-3;  // a block no better than that is flat at a corner
 
 // What the blocks around a corner lack of being good enough.
 double LackOf(const DomainBlocks& blocks, const std::vector<std::size_t>& around)
@@ -65,7 +66,7 @@ std::vector<std::size_t> InvertedBlocks(const DomainBlocks& blocks)
   std::vector<std::size_t> inverted;
   for (std::size_t b = 0; b < blocks.Blocks.size(); ++b)
   {
-    if (!(ScaledJacobian(blocks.Places, blocks.Blocks[b].Points) > 0.0))
+    if (!(ScaledJacobian(blocks.Places, blocks.Blocks[b].Points) > Flat))
     {
       inverted.push_back(b);
     }

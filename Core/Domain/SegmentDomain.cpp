@@ -6,6 +6,7 @@
 #include "ClosestRotation.h"
 #include "FlatPolycube.h"
 #include "HandleLoop.h"
+#include "InnerCorners.h"
 #include "LayoutCheck.h"
 
 #include <algorithm>
@@ -24,6 +25,8 @@ using Eigen::Vector3d;
 constexpr int MostRefinement = 2;
 constexpr Index EnoughTriangles = 20000; // six charts need no more
 constexpr double StretchInEdges = 3.0;   // so far chart borders are straightened
+constexpr double UnsoundCost = 0.05;     // in alignment, of cubes inverted between their corners
+constexpr Index MostForBends = 8;        // cubes
 
 double MeanEdgeLength(const SurfaceMesh& mesh)
 {
@@ -261,9 +264,15 @@ private:
            "). Cut or close handles first.";
   }
 
+  static bool IsSound(const SegmentDomain& domain)
+  {
+    return InvertedBlocks(CubeBlocks(domain)).empty();
+  }
+
   double Value(const SegmentDomain& domain) const
   {
-    return domain.Alignment - this->Options.CornerCost * double(domain.Cubes.NumberOfCorners);
+    return domain.Alignment - this->Options.CornerCost * double(domain.Cubes.NumberOfCorners) -
+           (IsSound(domain) ? 0.0 : UnsoundCost);
   }
 
   // Whether a domain with this many corners can be the best at all.
@@ -311,14 +320,25 @@ private:
     offer(cube);
 
     const auto [axis, length] = Longest(cube.Layout);
-    const Index cubes = std::min<Index>(std::lround(length), this->Options.MostCubes);
-    if (cubes > 1 && this->IsWorthwhile(4 * (cubes + 1)))
+    const auto isSoundInChain = [&, axis = axis](Index cubes)
     {
-      SegmentDomain chain{ CutIntoChain(
-                             cube.Layout, axis, static_cast<int>(cubes), this->Run.Part(0.7, 0.75)),
-        Chain(axis, static_cast<int>(cubes)), {}, 0.0 };
+      const int count = static_cast<int>(std::min(cubes, this->Options.MostCubes));
+      if (count < 2 || !this->IsWorthwhile(4 * (count + 1)))
+      {
+        return false;
+      }
+      SegmentDomain chain{ CutIntoChain(cube.Layout, axis, count, this->Run.Part(0.7, 0.75)),
+        Chain(axis, count), {}, 0.0 };
       this->Finish(chain, charts);
+      const bool sound = IsSound(chain);
       offer(std::move(chain));
+      return sound;
+    };
+    // As many cubes as it is long and, where it is bent, as few as are sound.
+    isSoundInChain(std::lround(length));
+    for (Index cubes = 2; !IsSound(cube) && cubes <= MostForBends && !isSoundInChain(cubes);
+         ++cubes)
+    {
     }
   }
 

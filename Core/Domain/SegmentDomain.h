@@ -34,10 +34,11 @@ struct SegmentDomain
 };
 
 /**
- * The domain with the largest alignment less the cost of its corners. CheckLayout finds nothing in
- * it. Tried are one cube, a chain of cubes cut from it where it is long, and on a surface with flat
- * parts (FlatPolycube.h) their polycube, the only one that may have handles. A surface with too few
- * triangles is cut finer.
+ * The domain with the largest alignment less the cost of its corners, and less 0.05 where a cube,
+ * straight between its corners, is inverted. CheckLayout finds nothing in it. Tried are one cube,
+ * chains of cubes cut from it where it is long or so bent that one is inverted, and on a surface
+ * with flat parts (FlatPolycube.h) their polycube, the only one that may have handles. A surface
+ * with too few triangles is cut finer.
  *
  * Throws std::invalid_argument for a surface of several pieces, std::runtime_error with the reasons
  * (and the place of a handle) where no domain can be laid out. O(n log n) beside one sparse

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Domain/ChainLayout.h"
 #include "Domain/HandleLoop.h"
+#include "Domain/InnerCorners.h"
 #include "Domain/LayoutCheck.h"
 #include "Domain/SegmentDomain.h"
 #include "SegmentSurfaces.h"
@@ -145,6 +146,7 @@ TEST(SegmentDomain, IsOneCubeWhereOneWillDo)
     EXPECT_EQ(domain.Layout.Corners.size(), 8u) << shape.Name;
     EXPECT_EQ(domain.Layout.PatchLabels.size(), 6u) << shape.Name;
     EXPECT_EQ(domain.Places.size(), 8u) << shape.Name;
+    EXPECT_TRUE(InvertedBlocks(CubeBlocks(domain)).empty()) << shape.Name;
     EXPECT_GE(domain.Alignment, shape.Alignment) << shape.Name;
     EXPECT_LE(domain.Alignment, 1.0 + 1e-12) << shape.Name;
   }
@@ -210,8 +212,7 @@ TEST(SegmentDomain, IsValidFromPickedCorners)
     const SegmentDomain found = FindDomain(shape.Surface, DomainOptions(), Execution());
     const SegmentDomain manual = PickedFrom(found, shape.Surface);
     EXPECT_EQ(Complaints(manual), "") << shape.Name;
-    EXPECT_EQ(manual.Layout.PatchLabels.size(), 6u) << shape.Name;
-    for (Index corner = 0; corner < 8; ++corner)
+    for (Index corner = 0; corner < found.Cubes.NumberOfCorners; ++corner)
     {
       EXPECT_LT((manual.Places[corner] - found.Places[corner]).norm(), 1e-9) << shape.Name;
     }
@@ -272,6 +273,19 @@ TEST(SegmentDomain, CutsACubeIntoAnyChain)
       }
     }
   }
+}
+
+// Three quarters of a ring: a straight cube between its ends would be turned inside out.
+TEST(SegmentDomain, CutsWhatIsBentIntoSoundCubes)
+{
+  const SurfaceMesh ring = Moved(SurfaceOf(Polycube::FromGrid({ 1, 1, 9 }), 8),
+    [](const Vector3d& p) { return Bent(p, 2.0, Pi / 6.0); });
+  const SegmentDomain domain = FindDomain(ring, DomainOptions(), Execution());
+  EXPECT_EQ(Complaints(domain), "");
+  EXPECT_GT(domain.Cubes.Cubes.size(), 1u);
+  EXPECT_LE(domain.Cubes.Cubes.size(), 9u);
+  EXPECT_TRUE(InvertedBlocks(CubeBlocks(domain)).empty());
+  EXPECT_GT(domain.Alignment, 0.9);
 }
 
 TEST(SegmentDomain, TakesMoreCubesOnlyForTheirWorth)
