@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTSplineFit.h"
 
-#include "Fit/Fit.h"
+#include "DomainSamples.h"
+#include "Fit/BlockFit.h"
 #include "GatherSamples.h"
 #include "SMPExecution.h"
 #include "SharedPieces.h"
@@ -10,6 +11,7 @@
 
 #include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -17,6 +19,7 @@
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
@@ -51,6 +54,46 @@ TSplineModel ToModel(FitResult& result, const ImageSamples& samples)
 }
 
 //------------------------------------------------------------------------------
+TSplineModel ToModel(
+  BlockFitResult& result, const BlockComplex& blocks, const ImageSamples& samples)
+{
+  TSplineModel model;
+  model.Spline = std::move(result.Spline);
+  model.Attributes = samples.Attributes;
+  for (const Index block : result.BlockOf)
+  {
+    model.Segment.push_back(blocks.Segments[block]);
+    model.Block.push_back(blocks.Groups[block]);
+  }
+  return model;
+}
+
+//------------------------------------------------------------------------------
+template <typename ArrayT>
+void AddNumbers(vtkFieldData* field, const char* name, const std::vector<double>& numbers)
+{
+  vtkNew<ArrayT> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(static_cast<int>(numbers.size()));
+  array->InsertNextTuple(numbers.data());
+  field->AddArray(array);
+}
+
+//------------------------------------------------------------------------------
+void ReportShape(const BlockFitResult& result, Index voxels, double spacing, vtkFieldData* field)
+{
+  const auto number = [](Index n) { return static_cast<double>(n); };
+  AddNumbers<vtkIdTypeArray>(field, "ShapeControlPoints", { number(result.ShapePoints) });
+  AddNumbers<vtkDoubleArray>(
+    field, "ShapeDistance", { result.ShapeRms / spacing, result.ShapeMaximum / spacing });
+  AddNumbers<vtkIdTypeArray>(
+    field, "VoxelsInside", { number(result.VoxelsInside), number(voxels) });
+  AddNumbers<vtkDoubleArray>(field, "SmallestJacobian", { result.SmallestJacobian });
+  AddNumbers<vtkIdTypeArray>(field, "ShapeCells",
+    { number(result.ShapeCells), number(result.FoldedCells), number(result.CertifiedCells) });
+}
+
+//------------------------------------------------------------------------------
 void ToTable(const std::vector<FitRound>& rounds, vtkTable* table)
 {
   vtkNew<vtkIdTypeArray> controlPoints;
@@ -76,6 +119,7 @@ void ToTable(const std::vector<FitRound>& rounds, vtkTable* table)
 //------------------------------------------------------------------------------
 vtkTSplineFit::vtkTSplineFit()
 {
+  this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(2);
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
@@ -122,9 +166,12 @@ void vtkTSplineFit::SetMaskArray(const char* name)
 }
 
 //------------------------------------------------------------------------------
-int vtkTSplineFit::FillInputPortInformation(int, vtkInformation* info)
+int vtkTSplineFit::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  const char* const types[3] = { "vtkImageData", "vtkUnstructuredGrid",
+    "vtkPartitionedDataSetCollection" };
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), types[port]);
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port > 0 ? 1 : 0);
   return 1;
 }
 
@@ -159,6 +206,62 @@ int vtkTSplineFit::RequestUpdateExtent(
 }
 
 //------------------------------------------------------------------------------
+void vtkTSplineFit::FitImage(ImageSamples& samples, vtkUnstructuredGrid* output, vtkTable* rounds)
+{
+  FitOptions options;
+  options.Rule = static_cast<Refinement>(this->RefinementRule);
+  options.MaximumControlPoints = this->MaximumNumberOfControlPoints;
+  options.RmsTolerance = this->RMSTolerance / 100.0;
+  options.MaximumErrorTolerance = this->MaximumErrorTolerance;
+  options.Independent = this->LinearlyIndependent;
+  FitResult result = FitGrid(samples.View(), options, SMPExecution(this));
+  TSplineToGrid(ToModel(result, samples), output);
+  ToTable(result.Rounds, rounds);
+}
+
+//------------------------------------------------------------------------------
+void vtkTSplineFit::FitDomain(ImageSamples& samples, vtkInformationVector** inputVector,
+  vtkUnstructuredGrid* output, vtkTable* rounds)
+{
+  if (this->RefinementRule != COMPACT)
+  {
+    throw std::invalid_argument(
+      "Over a domain only the compact rule refines: bisection with a closure, and one uniform "
+      "mesh, "
+      "know a single box. Choose the compact rule, or disconnect the polycube.");
+  }
+  const BlockComplex blocks = ReadBlocks(vtkUnstructuredGrid::GetData(inputVector[1]));
+  const BlockSamples voxels = TakeVoxels(samples, blocks);
+  const ShapeSamples shape =
+    ReadShape(vtkPartitionedDataSetCollection::GetData(inputVector[2]), blocks);
+  BlockFitOptions options;
+  options.MaximumControlPoints = this->MaximumNumberOfControlPoints;
+  options.RmsTolerance = this->RMSTolerance / 100.0;
+  options.MaximumErrorTolerance = this->MaximumErrorTolerance;
+  options.Spacing = VoxelSpacing(samples);
+  options.ShapeTolerance = this->ShapeTolerance * options.Spacing;
+  options.MaximumShapePoints =
+    static_cast<Index>(this->ShapeShare * this->MaximumNumberOfControlPoints);
+  BlockFitResult result = FitBlocks(blocks, voxels, shape, options, SMPExecution(this));
+  if (result.FoldedCells > 0)
+  {
+    vtkWarningMacro("The shape folds in " << result.FoldedCells << " of " << result.ShapeCells
+                                          << " cells; allow more control points, or improve the "
+                                             "parameterization there.");
+  }
+  vtkNew<vtkIdTypeArray> shared;
+  shared->SetName("SharedControlPoint");
+  for (const Index point : result.PointOf)
+  {
+    shared->InsertNextValue(point);
+  }
+  ToTable(result.Rounds, rounds);
+  ReportShape(result, voxels.Count(), options.Spacing, rounds->GetFieldData());
+  TSplineToGrid(ToModel(result, blocks, samples), output);
+  output->GetPointData()->AddArray(shared);
+}
+
+//------------------------------------------------------------------------------
 int vtkTSplineFit::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -172,13 +275,19 @@ int vtkTSplineFit::RequestData(
   {
     return 1; // the first piece is all
   }
+  const bool isDomain = this->GetNumberOfInputConnections(1) > 0;
   ImageSamples samples;
   std::string fault;
   try
   {
     if (input->GetNumberOfPoints() > 0)
     {
-      samples = ReadSamples(input, this->ChosenArray(input), this->Attributes, this->MaskArray);
+      std::vector<std::string> further = this->Attributes;
+      if (isDomain)
+      {
+        further.insert(further.end(), { ParameterArrayName, ParameterMaskName });
+      }
+      samples = ReadSamples(input, this->ChosenArray(input), further, this->MaskArray);
     }
   }
   catch (const std::exception& error)
@@ -212,15 +321,14 @@ int vtkTSplineFit::RequestData(
     }
     CheckExtent(samples);
 
-    FitOptions options;
-    options.Rule = static_cast<Refinement>(this->RefinementRule);
-    options.MaximumControlPoints = this->MaximumNumberOfControlPoints;
-    options.RmsTolerance = this->RMSTolerance / 100.0;
-    options.MaximumErrorTolerance = this->MaximumErrorTolerance;
-    options.Independent = this->LinearlyIndependent;
-    FitResult result = FitGrid(samples.View(), options, SMPExecution(this));
-    TSplineToGrid(ToModel(result, samples), output);
-    ToTable(result.Rounds, rounds);
+    if (isDomain)
+    {
+      this->FitDomain(samples, inputVector, output, rounds);
+    }
+    else
+    {
+      this->FitImage(samples, output, rounds);
+    }
   }
   catch (const Aborted&)
   {
@@ -249,6 +357,8 @@ void vtkTSplineFit::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RMSTolerance: " << this->RMSTolerance << "\n";
   os << indent << "MaximumErrorTolerance: " << this->MaximumErrorTolerance << "\n";
   os << indent << "LinearlyIndependent: " << this->LinearlyIndependent << "\n";
+  os << indent << "ShapeTolerance: " << this->ShapeTolerance << "\n";
+  os << indent << "ShapeShare: " << this->ShapeShare << "\n";
   os << indent << "Attributes:";
   for (const std::string& name : this->Attributes)
   {

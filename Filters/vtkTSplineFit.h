@@ -10,21 +10,41 @@
  * extent, lies at (u, v, w) = (i, j, k). The geometry of the spline is the image's own affine map
  * from indices to space (origin, spacing, direction), exactly.
  *
+ * Over a domain: with the parameters of the voxels, and the cubes and block meshes that belong to
+ * them, one spline is fitted over all blocks of the domain. X, Y, Z become functions of (u, v, w)
+ * whose faces lie on the surface of the segments, on the coarsest net that puts them there; every
+ * voxel takes the parameters at which this shape passes through it, and the attributes are fitted
+ * there. Blocks of one group are joined C2; across other common faces the control points are the
+ * same on both sides, so there is no gap.
+ *
  * @par Input
  * Port 0: a vtkImageData with two or more points along each axis. The point array chosen with
  * SetInputArrayToProcess(0, ...) and those named with AddAttribute are fitted, any real type and
  * number of components each, with the same blending functions for all. An optional point array
- * (SetMaskArray) says which voxels count.
+ * (SetMaskArray) says which voxels count. Over a domain also with the arrays Parameter and
+ * ParameterMask; voxels where that is zero do not count.
+ * Port 1 (optional): vtkUnstructuredGrid, the polycube of vtkVolumeParameterization; makes it a fit
+ * over a domain.
+ * Port 2 (optional): vtkPartitionedDataSetCollection, its block meshes, which tell where the
+ * surface is. Without them the shape is fitted to the voxels and ends near the outermost of them.
  *
  * @par Output
  * Port 0: the T-spline grid, a vtkUnstructuredGrid with one point and one vertex cell a control
  * point and the point arrays KnotsU, KnotsV, KnotsW (double x 5), Weight (double), Segment and
  * Block (int32, zero), and one double array an attribute under the attribute's own name; see
  * Documentation/Arrays.md. vtkTSplineSource evaluates it, vtkTSplineWriter stores it.
+ * Over a domain the Segment and Block of the polycube instead of zeros, and SharedControlPoint
+ * (vtkIdType): functions that share a control point have the same number there.
  * Port 1: a vtkTable with one row a round of solving and refining and the columns ControlPoints
  * (vtkIdType), RMS (100 x root mean square error / range of the attribute), MaximumError (share of
  * the range; NaN after a round that did not need it) and Seconds (since the start). Of several
- * attributes the worst counts. The last row belongs to the output.
+ * attributes the worst counts. The last row belongs to the output. Over a domain control points are
+ * counted once for all functions that share them, rows are the rounds of the attributes, and the
+ * field data has ShapeControlPoints (vtkIdType), ShapeDistance (double x 2: root mean square and
+ * largest distance of the spline from the samples of the shape, in voxels), VoxelsInside (vtkIdType
+ * x 2: voxels that the shape passes through, of how many), SmallestJacobian (double: least
+ * determinant of d(X, Y, Z)/d(u, v, w), in parts of its mean) and ShapeCells (vtkIdType x 3: Bezier
+ * cells of the shape, those with a fold, those proven to have none).
  *
  * @par Cost
  * About 100 bytes a voxel for one component and 6 kB a control point at the peak, of which the copy
@@ -38,12 +58,14 @@
  *
  * @par Errors
  * An image without points, without the chosen array, with a mask array of another size or without
- * a voxel that counts, one voxel thick, with NaN or infinity, or too large for the memory.
+ * a voxel that counts, one voxel thick, with NaN or infinity, or too large for the memory. Over a
+ * domain: another refinement rule than COMPACT, parameters outside of the blocks, fewer control
+ * points allowed than the blocks have at least.
  *
  * @par Reference
  * Sederberg, Zheng, Bakenov, Nasri. T-splines and T-NURCCs. SIGGRAPH 2003.
  *
- * @sa vtkTSplineSource vtkTSplineWriter vtkTSplineReader
+ * @sa vtkVolumeParameterization vtkTSplineSource vtkTSplineWriter vtkTSplineReader
  */
 #ifndef vtkTSplineFit_h
 #define vtkTSplineFit_h
@@ -57,6 +79,12 @@
 class vtkDataArray;
 class vtkImageData;
 class vtkMultiProcessController;
+class vtkTable;
+
+namespace trivariate
+{
+struct ImageSamples;
+}
 
 class VTKTRIVARIATEFILTERS_EXPORT vtkTSplineFit : public vtkUnstructuredGridAlgorithm
 {
@@ -117,11 +145,31 @@ public:
    * Whether the blending functions of the compact rule are made linearly independent: a function
    * that knot insertion left over is removed and the others adjusted, the spline staying what it
    * is. A basis is needed for analysis, not for the fit; the search takes about a tenth of the
-   * fit's time. The other rules give independent functions in any case. Default is true.
+   * fit's time. The other rules give independent functions in any case; over a domain it is not
+   * done, for it would part what both sides of a face have in common. Default is true.
    */
   vtkSetMacro(LinearlyIndependent, bool);
   vtkGetMacro(LinearlyIndependent, bool);
   vtkBooleanMacro(LinearlyIndependent, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Over a domain, the shape is refined until the root mean square distance of its samples from it
+   * is at most this many voxels, those on the surface counting 25 times. Valid range [0, 100].
+   * Default is 0.1.
+   */
+  vtkSetClampMacro(ShapeTolerance, double, 0.0, 100.0);
+  vtkGetMacro(ShapeTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Over a domain, refinement of the shape takes at most this share of the control points. Valid
+   * range [0, 1]. Default is 0.5.
+   */
+  vtkSetClampMacro(ShapeShare, double, 0.0, 1.0);
+  vtkGetMacro(ShapeShare, double);
   ///@}
 
   ///@{
@@ -170,11 +218,17 @@ private:
 
   vtkDataArray* ChosenArray(vtkImageData* image);
 
+  void FitImage(trivariate::ImageSamples& samples, vtkUnstructuredGrid* output, vtkTable* rounds);
+  void FitDomain(trivariate::ImageSamples& samples, vtkInformationVector** inputVector,
+    vtkUnstructuredGrid* output, vtkTable* rounds);
+
   int RefinementRule = COMPACT;
   int MaximumNumberOfControlPoints = 50000;
   double RMSTolerance = 0.0;
   double MaximumErrorTolerance = 0.0;
   bool LinearlyIndependent = true;
+  double ShapeTolerance = 0.1;
+  double ShapeShare = 0.5;
   std::vector<std::string> Attributes;
   std::string MaskArray = "None";
   vtkMultiProcessController* Controller = nullptr;

@@ -87,6 +87,10 @@ public:
     const SharedPoints shared = this->Layout.Share(this->Result.Spline);
     this->Result.PointOf = shared.PointOf;
     this->Result.ControlPoints = shared.Count();
+    for (const BlendingFunction& f : this->Result.Spline.Functions)
+    {
+      this->Result.BlockOf.push_back(this->Layout.BlockOf(f));
+    }
     return std::move(this->Result);
   }
 

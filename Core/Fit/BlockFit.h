@@ -55,6 +55,7 @@ struct BlockFitResult
   /// Components: X, Y, Z, then the attributes.
   TSpline Spline;
   std::vector<Index> PointOf; ///< of each function: which of the distinct control points it has
+  std::vector<Index> BlockOf; ///< of each function: its block, or one of its group
   Index ControlPoints = 0;    ///< distinct ones
   std::vector<FitRound> Rounds;
   Index ShapePoints = 0; ///< distinct control points that the shape was fitted with
