@@ -130,3 +130,63 @@ def save_segments(path, segmentation, boundary, name):
     for view, place in zip(views, (1, 5, 6)):
         simple.AssignViewToLayout(view, layout, place)
     simple.SaveScreenshot(path, layout, ImageResolution=[1500, 600])
+
+
+FRAME_COLORS = [0, 0.85, 0.20, 0.10, 1, 0.10, 0.55, 0.20, 2, 0.10, 0.30, 0.80]
+
+
+def show_crosses(field, axis, view):
+    """Frames on the middle slice across an axis, a color for each direction."""
+    extent = list(field.GetDataInformation().GetExtent())
+    sides = [extent[2 * a + 1] - extent[2 * a] for a in range(3)]
+    extent[2 * axis] = extent[2 * axis + 1] = (extent[2 * axis] + extent[2 * axis + 1]) // 2
+    crosses = simple.FrameGlyphs(Input=simple.ExtractSubset(Input=field, VOI=extent),
+                                 Stride=max(1, round(max(sides) / 36)))
+    shown = simple.Show(crosses, view)
+    simple.ColorBy(shown, ("CELLS", "FrameAxis"))
+    simple.GetColorTransferFunction("FrameAxis").RGBPoints = FRAME_COLORS
+    shown.SetScalarBarVisibility(view, False)
+    shown.LineWidth = 2
+
+
+def show_lines(source, color, width, view):
+    shown = simple.Show(source, view)
+    shown.ColorArrayName = [None, ""]
+    shown.AmbientColor = shown.DiffuseColor = color
+    shown.LineWidth = width
+    shown.RenderLinesAsTubes = 1
+
+
+def save_frames(path, aligned, unaligned):
+    """Frames with patches on a slice; lines along each of their directions; singular curves
+    without patches."""
+    views = [view_of("frames"), view_of("lines along u, v, w"), view_of("singular without patches")]
+    bounds = aligned.GetDataInformation().GetBounds()
+    centre = [0.5 * (bounds[2 * a] + bounds[2 * a + 1]) for a in range(3)]
+    largest = max(bounds[2 * a + 1] - bounds[2 * a] for a in range(3))
+    show_crosses(aligned, 1, views[0])
+    for axis, vectors in enumerate(("FrameU", "FrameV", "FrameW")):
+        lines = simple.StreamTracer(Input=aligned, Vectors=["POINTS", vectors],
+                                    SeedType="Point Cloud", MaximumStreamlineLength=2.0 * largest)
+        lines.SeedType.Center = centre
+        lines.SeedType.Radius = 0.5 * largest
+        lines.SeedType.NumberOfPoints = 300
+        show_lines(lines, FRAME_COLORS[4 * axis + 1:4 * axis + 4], 1.5, views[1])
+    show_lines(simple.OutputPort(unaligned, 1), [0.1, 0.1, 0.1], 3, views[2])
+    for view in views[1:]:
+        surface = simple.Contour(Input=aligned, ContourBy=["POINTS", "Segment"], Isosurfaces=[0.5])
+        shown = simple.Show(surface, view)
+        shown.ColorArrayName = [None, ""]
+        shown.DiffuseColor = shown.AmbientColor = SURFACE
+        shown.Opacity = 0.2
+    for view, position in zip(views, ((0, -1, 0), (-1.2, -3, 1), (-1.2, -3, 1))):
+        view.CameraPosition = [c + p for c, p in zip(centre, position)]
+        view.CameraFocalPoint = centre
+        view.CameraViewUp = [0.0, 0.0, 1.0]
+        view.ResetCamera()
+    layout = simple.CreateLayout()
+    layout.SplitHorizontal(0, 1.0 / 3.0)
+    layout.SplitHorizontal(2, 0.5)
+    for view, place in zip(views, (1, 5, 6)):
+        simple.AssignViewToLayout(view, layout, place)
+    simple.SaveScreenshot(path, layout, ImageResolution=[1500, 600])
