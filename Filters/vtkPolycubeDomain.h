@@ -9,8 +9,9 @@
  * face between a cube and the outside. On a patch one of the parameters u, v, w is constant.
  *
  * Automatic: cubes, corners and patches are found, so that the normals of the surface point along
- * the axes of the patches, at a cost for each corner. A segment with one cavity is a shell around
- * it, with a block on each patch.
+ * the axes of the patches, at a cost for each corner; what is so bent that the hexahedron between
+ * the corners of a cube would be inverted is cut into a chain of cubes. A segment with one cavity
+ * is a shell around it, with a block on each patch.
  *
  * What neighbours share: a segment that fills the cavity of another has that surface in common with
  * it, its corners, patches and coordinates. Two segments without cavities that touch in one disc
@@ -59,7 +60,9 @@
  *   and on the right, seen from outside.
  *
  * @par Cost
- * A surface of 1e5 triangles: some seconds for each segment. The corners found are kept, so that
+ * A surface of 1e5 triangles: some seconds for each segment and 0.4 GB; growth is close to linear.
+ * Aborting takes less than a second up to there; in larger surfaces one sparse factorisation, which
+ * takes a second for each 1e5 triangles, is not interrupted. The corners found are kept, so that
  * corners picked from there take less.
  *
  * @par Distributed data
