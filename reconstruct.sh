@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # ./reconstruct.sh [VOLUME] [--output DIR] [--array NAME] [--tolerance T] [--control-points N]
-#                  [--segments K]
+#                  [--segments K] [--domain box|auto]
 #
 # Turns a volume image into a T-spline and writes to DIR what came out of it: model.tspline,
 # resampled.vti, hexes.vtu, bezier.vtu, picture.png and report.json. The first call on Debian 12
@@ -15,8 +15,10 @@
 #   --control-points N  stop before there are more than N control points; default is 50000
 #   --segments K        also split the volume into K materials by texture and density (0: as many as
 #                       it seems to have), and write segments.vti, boundary.vtp and segments.png;
-#                       and, of segments for which there is a domain of cubes, patches.vtp,
-#                       domain.vtu and fields.vti, frames aligned with the patches
+#                       and, of segments for which there is a domain of cubes, patches.vtp and
+#                       domain.vtu
+#   --domain box|auto   box, the default: one spline over the whole image; auto: a spline for each of
+#                       the K materials, together still one T-spline that stands for every voxel
 set -euo pipefail
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 export BUILD_DIR=${BUILD_DIR:-$source_dir/build}
@@ -24,11 +26,11 @@ export BUILD_DIR=${BUILD_DIR:-$source_dir/build}
 usage() { sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "${BASH_SOURCE[0]}"; }
 fail() { echo "reconstruct: error: $*" >&2; exit 2; }
 
-volume="" output=output array="" tolerance="" control_points="" segments=""
+volume="" output=output array="" tolerance="" control_points="" segments="" domain=""
 while [ $# -gt 0 ]; do
   case $1 in
     -h | --help) usage; exit 0 ;;
-    --output | --array | --tolerance | --control-points | --segments)
+    --output | --array | --tolerance | --control-points | --segments | --domain)
       [ $# -ge 2 ] && [ -n "$2" ] || fail "$1 needs a value; see --help"
       name=${1#--}
       printf -v "${name//-/_}" %s "$2"
@@ -47,6 +49,7 @@ number='^([0-9]+([.][0-9]*)?|[.][0-9]+)([eE][-+]?[0-9]+)?$'
   fail "--control-points is a whole number from 64 to 999999999, not '$control_points'"
 [ -z "$segments" ] || { [[ $segments =~ ^[0-9]{1,2}$ ]] && ((10#$segments <= 64)); } ||
   fail "--segments is a whole number from 0 to 64, not '$segments'"
+[ -z "$domain" ] || [[ $domain =~ ^(box|auto)$ ]] || fail "--domain is box or auto, not '$domain'"
 [ -z "$volume" ] || [ -f "$volume" ] || fail "there is no file '$volume'"
 [ -z "$volume" ] || [ -r "$volume" ] || fail "the file '$volume' cannot be read"
 mkdir -p -- "$output" 2>/dev/null || fail "the folder '$output' cannot be made"
@@ -57,4 +60,4 @@ mkdir -p -- "$output" 2>/dev/null || fail "the folder '$output' cannot be made"
 exec "$source_dir/Utilities/with-display.sh" pvbatch "$source_dir/Utilities/reconstruct.py" \
   ${volume:+--volume "$volume"} --output "$output" ${array:+--array "$array"} \
   ${tolerance:+--tolerance "$tolerance"} ${control_points:+--control-points "$control_points"} \
-  ${segments:+--segments "$segments"}
+  ${segments:+--segments "$segments"} ${domain:+--domain "$domain"}

@@ -6,7 +6,6 @@
 #include "SplineFacts.h"
 #include "TSpline/BezierMesh.h"
 #include "TSpline/Evaluator.h"
-#include "TSpline/InverseMap.h"
 #include "TSplinePoints.h"
 
 #include "vtkDataArray.h"
@@ -281,18 +280,18 @@ std::vector<ReportRow> MakeReport(const ReportInput& input, const Execution& exe
     {
       const TSplineModel fitted = several ? SegmentPart(model, segment) : model;
       const BezierMesh mesh(fitted.Spline, part.Part(0.2, 0.25));
-      const bool affine = InverseMap(fitted.Spline, mesh, part.Part(0.25, 0.3)).Affine();
-      const std::vector<double> values =
-        input.Parameter < 0 ? std::vector<double>()
-                            : EvaluateOwn(input, fitted, mesh, own, part.Part(0.3, 0.5));
-      errors = Compare(input, trip, range, affine, own, values);
       if (several || rows.empty())
       {
         const TSplineModel stored = several ? SegmentPart(input.Model, segment) : input.Model;
         facts = DescribeSpline(
-          stored, mesh, affine, several ? segment : segments.front(), input, part.Part(0.5, 1.0));
+          stored, mesh, several ? segment : segments.front(), input, part.Part(0.25, 0.8));
         totalFacts.Add(facts);
       }
+      const bool affine = several ? facts.Affine : totalFacts.Affine;
+      const std::vector<double> ownValues =
+        input.Parameter < 0 ? std::vector<double>()
+                            : EvaluateOwn(input, fitted, mesh, own, part.Part(0.8, 1.0));
+      errors = Compare(input, trip, range, affine, own, ownValues);
     }
     else
     {

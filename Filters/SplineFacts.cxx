@@ -82,6 +82,7 @@ void Merge(double& mine, double other, const Choose& choose)
 void SplineFacts::Add(const SplineFacts& other)
 {
   const auto sum = [](double a, double b) { return a + b; };
+  this->Affine = other.Affine;
   Merge(this->ControlPoints, other.ControlPoints, sum);
   Merge(this->NumbersStored, other.NumbersStored, sum);
   Merge(this->Blocks, other.Blocks, sum);
@@ -151,20 +152,21 @@ double SecondsOf(vtkTable* rounds, int segment)
 }
 
 //------------------------------------------------------------------------------
-SplineFacts DescribeSpline(const TSplineModel& part, const BezierMesh& mesh, bool affine,
-  int segment, const ReportInput& input, const Execution& execution)
+SplineFacts DescribeSpline(const TSplineModel& part, const BezierMesh& mesh, int segment,
+  const ReportInput& input, const Execution& execution)
 {
   SplineFacts facts;
   facts.ControlPoints = static_cast<double>(part.Spline.Size());
-  facts.NumbersStored = CountNumbers(part.Spline, affine);
   facts.Blocks = static_cast<double>(std::set(part.Block.begin(), part.Block.end()).size());
   facts.Bytes = StoredBytes(part, execution.Part(0.0, 0.2));
   const JacobianRange jacobian =
     MeasureJacobian(InHandednessOf(input.Image, part.Spline), mesh, execution.Part(0.2, 0.6));
   facts.MinimumScaledJacobian = jacobian.Minimum;
   facts.InvertedCells = static_cast<double>(jacobian.Inverted);
+  facts.Affine = jacobian.Constant && facts.Blocks == 1.0;
+  facts.NumbersStored = CountNumbers(part.Spline, facts.Affine);
   // The box that an image's index space is has no boundary in common with a segment.
-  if (input.Surfaces && !affine)
+  if (input.Surfaces && !facts.Affine)
   {
     TriangleList surface = SegmentTriangles(input.Surfaces, segment);
     TriangleList boundary = SplineBoundary(part.Spline, mesh, execution.Part(0.6, 0.7));

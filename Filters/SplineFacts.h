@@ -34,14 +34,15 @@ struct SplineFacts
   double MinimumScaledJacobian = NaN; ///< as JacobianRange, above 0 for the image's own handedness
   double InvertedCells = NaN;
   double Hausdorff = NaN; ///< in voxels; not for an affine geometry, the box of an image
+  bool Affine = false;    ///< the geometry, where the spline is whole
 
-  /// Of two segments together; what is not known of one does not count.
+  /// Of two segments together; what is not known of one does not count. Affine is that of `other`.
   void Add(const SplineFacts& other);
 };
 
 /// Of the spline of a segment; the mesh is that of `part`.
-SplineFacts DescribeSpline(const TSplineModel& part, const BezierMesh& mesh, bool affine,
-  int segment, const ReportInput& input, const Execution& execution);
+SplineFacts DescribeSpline(const TSplineModel& part, const BezierMesh& mesh, int segment,
+  const ReportInput& input, const Execution& execution);
 
 /// Distinct corners of the polycube on the surface of a segment, or on all (AllSegments).
 double CountCorners(vtkPolyData* surface, int segment);

@@ -3,14 +3,14 @@
 """From a volume image to a T-spline and back: the job of reconstruct.sh, run by pvbatch."""
 import argparse
 import json
+import math
 import os
 import resource
 import sys
 import time
 
-import numpy
 from paraview import simple
-from vtkmodules.numpy_interface import dataset_adapter
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkCommonCore import vtkSMPTools
 from vtkmodules.vtkCommonDataModel import vtkImageData
@@ -43,8 +43,9 @@ class Stopwatch:
         return result
 
 
-def output_of(proxy, port=0):
-    return proxy.GetClientSideObject().GetOutputDataObject(port)
+def output_of(output):
+    """The data behind a filter's proxy, or behind one of its output ports."""
+    return output.SMProxy.GetClientSideObject().GetOutputDataObject(output.Port)
 
 
 def report_progress(proxy, every=10):
@@ -94,14 +95,29 @@ def choose_array(image, wanted):
     return name
 
 
-def fit_spline(source, name, tolerance, control_points):
-    fit = simple.TSplineFit(Input=source, Scalars=["POINTS", name], RMSTolerance=tolerance,
-                            MaximumNumberOfControlPoints=control_points)
-    report_progress(fit)
-    fit.UpdatePipeline()
-    if output_of(fit).GetNumberOfPoints() == 0:
-        fail("the fit failed, as told above")
-    return fit
+def run(step, what):
+    """Updates a filter with progress and with its messages as sentences; ends the job on an error."""
+    report_progress(step)
+    listen(step)
+    step.UpdatePipeline()
+    if output_of(step).GetNumberOfPoints() == 0:
+        fail(f"{what} failed, as told above")
+    return step
+
+
+def listen(proxy):
+    """Tells the warnings and errors of the filter behind the proxy, without their place in VTK."""
+    algorithm = proxy.GetClientSideObject()
+
+    def tell(_, __, text):
+        for line in text.split("): ", 1)[-1].strip().splitlines():
+            say("  " + line)
+
+    tell.CallDataType = VTK_STRING
+    for event in ("ErrorEvent", "WarningEvent"):
+        algorithm.AddObserver(event, tell)
+    # The executive only repeats that the filter has failed.
+    algorithm.GetExecutive().AddObserver("ErrorEvent", lambda *_: None)
 
 
 def save(path, proxy, **options):
@@ -130,72 +146,45 @@ def evaluate(path, model, output_type, **settings):
     return source
 
 
-def segment(path, source, name, count):
-    """Splits the volume into materials and saves their labels; 0 chooses their number."""
-    segmentation = simple.TextureSegmentation(Input=source, Scalars=["POINTS", name],
-                                              NumberOfSegments=count)
-    report_progress(segmentation)
-    segmentation.UpdatePipeline()
-    if output_of(segmentation).GetPointData().GetArray("Segment") is None:
-        fail("the segmentation failed, as told above")
-    save(path, segmentation, DataMode="Binary", CompressorType="ZLib")
-    return segmentation
+class Segments:
+    """What the steps beside the fit make of the volume: each an output of a filter, or None."""
+    labelled = surfaces = patches = polycubes = None
 
+    def split(self, source, name, count):
+        """Splits the volume into materials, as many as wanted; 0 chooses their number."""
+        self.labelled = run(simple.TextureSegmentation(
+            Input=source, Scalars=["POINTS", name], NumberOfSegments=count), "the segmentation")
 
-def count_domains(layout):
-    return len(set(dataset_adapter.WrapDataObject(output_of(layout, 1)).CellData["Segment"]))
+    def bound(self):
+        """Makes the surfaces between the segments."""
+        self.surfaces = run(simple.SegmentBoundary(Input=self.labelled), "the surface")
 
+    def lay_out(self):
+        """Cuts surfaces into patches and finds the cubes that are the segments' domains."""
+        whole = simple.SegmentTopology(Input=self.labelled)
+        layout = simple.PolycubeDomain(Input=simple.SegmentBoundary(Input=whole))
+        report_progress(layout)
+        listen(layout)
+        layout.UpdatePipeline()
+        self.take_domains(layout, 0, 1)
 
-def count_segments(segmentation):
-    return 1 + int(output_of(segmentation).GetPointData().GetArray("Segment").GetRange()[1])
+    def take_domains(self, layout, patches, polycubes):
+        cubes = simple.OutputPort(layout, polycubes)
+        if output_of(cubes).GetNumberOfCells() > 0:
+            self.patches, self.polycubes = simple.OutputPort(layout, patches), cubes
 
+    def take(self, reconstruction):
+        self.labelled = simple.OutputPort(reconstruction, 2)
+        surfaces = simple.OutputPort(reconstruction, 3)
+        if output_of(surfaces).GetNumberOfCells() > 0:
+            self.surfaces = surfaces
+        self.take_domains(reconstruction, 4, 5)
 
-def bound(path, segmentation):
-    """Saves the surfaces between the segments."""
-    boundary = simple.SegmentBoundary(Input=segmentation)
-    report_progress(boundary)
-    boundary.UpdatePipeline()
-    if output_of(boundary).GetNumberOfCells() == 0:
-        fail("there is no surface between segments")
-    save(path, boundary, DataMode="Binary", CompressorType="ZLib")
-    return boundary
-
-
-def lay_out(patches, domain, segmentation):
-    """Saves the segments' surfaces cut into patches, and the cubes that are their domains. Tells of
-    segments without a domain, and why. Returns the filter, or None where there is no domain."""
-    whole = simple.SegmentTopology(Input=segmentation)
-    layout = simple.PolycubeDomain(Input=simple.SegmentBoundary(Input=whole))
-    report_progress(layout)
-    algorithm = layout.GetClientSideObject()
-
-    def tell(_, __, text):
-        for line in text.split("): ", 1)[-1].strip().splitlines():  # after VTK's place in the source
-            say("  " + line)
-
-    tell.CallDataType = VTK_STRING
-    for event in ("ErrorEvent", "WarningEvent"):
-        algorithm.AddObserver(event, tell)
-    # The executive only repeats that the filter has failed.
-    algorithm.GetExecutive().AddObserver("ErrorEvent", lambda *_: None)
-    layout.UpdatePipeline()
-    cubes = output_of(layout, 1)
-    if cubes.GetNumberOfCells() == 0:
-        return None
-    for path, port in ((patches, 0), (domain, 1)):
-        save(path, simple.OutputPort(layout, port), DataMode="Binary", CompressorType="ZLib")
-    return layout
-
-
-def align(path, layout):
-    """Saves the image of which the domains are made, with frames aligned with their patches."""
-    whole = layout.Input.Input
-    field = simple.FrameField(Input=whole, Patches=simple.OutputPort(layout, 0))
-    report_progress(field)
-    field.UpdatePipeline()
-    if output_of(field).GetPointData().GetArray("FrameU") is None:
-        fail("there are no frames, as told above")
-    save(path, field, DataMode="Binary", CompressorType="ZLib")
+    def save(self, path):
+        for name, output in (("segments.vti", self.labelled), ("boundary.vtp", self.surfaces),
+                             ("patches.vtp", self.patches), ("domain.vtu", self.polycubes)):
+            if output is not None:
+                save(path(name), output, DataMode="Binary", CompressorType="ZLib")
 
 
 def count_cells(model):
@@ -204,19 +193,29 @@ def count_cells(model):
     return output_of(mesh).GetNumberOfCells()
 
 
-def round_trip_error(image, resampled, name):
-    """100 x RMS over all voxels of the range-scaled difference of two images."""
-    before = dataset_adapter.WrapDataObject(image).PointData[name].astype(float)
-    after = dataset_adapter.WrapDataObject(resampled).PointData[name]
-    scale = numpy.ptp(before) or 1.0
-    return 100.0 * float(numpy.sqrt(numpy.mean(((after - before) / scale) ** 2)))
+def measure(path, source, name, model, rounds, segments):
+    """Compares volume and spline, saves the table, and returns its row of all segments."""
+    extra = {}
+    if segments.patches or segments.surfaces:
+        extra["Surfaces"] = segments.patches or segments.surfaces
+    report = simple.ReconstructionReport(Input=segments.labelled or source, TSpline=model,
+                                         Rounds=rounds, Scalars=["POINTS", name], **extra)
+    report.UpdatePipeline()
+    table = output_of(report)
+    if table.GetNumberOfRows() == 0:
+        fail("the report failed, as told above")
+    save(path, report)
+    last = table.GetNumberOfRows() - 1
+    return {table.GetColumnName(i): table.GetValue(last, i).ToDouble()
+            for i in range(table.GetNumberOfColumns())}
 
 
-def last_round(fit):
-    table = output_of(fit, 1)
-    row = table.GetNumberOfRows() - 1
-    return (table.GetValueByName(row, "RMS").ToDouble(),
-            table.GetValueByName(row, "MaximumError").ToDouble())
+def whole_or_none(number):
+    return None if math.isnan(number) else int(number)
+
+
+def number_or_none(number):
+    return None if math.isnan(number) else number
 
 
 def print_table(report):
@@ -228,6 +227,8 @@ def print_table(report):
             value = f"{value:.5g}"
         elif isinstance(value, int):
             value = f"{value:,}"
+        elif value is None:
+            value = "-"
         print(f"  {key.replace('_', ' '):32} {value:>16}")
     print(flush=True)
 
@@ -240,6 +241,7 @@ def main():
     parser.add_argument("--tolerance", type=float)
     parser.add_argument("--control-points", type=int)
     parser.add_argument("--segments", type=int)
+    parser.add_argument("--domain", choices=["box", "auto"], default="box")
     options = parser.parse_args()
     if options.tolerance is None:
         options.tolerance = 0.0 if options.control_points else 0.1
@@ -250,42 +252,63 @@ def main():
     def path(name):
         return os.path.join(options.output, name)
 
-    for old in ("report.json", "patches.vtp", "domain.vtu", "fields.vti"):
+    for old in ("report.json", "segments.vti", "boundary.vtp", "patches.vtp", "domain.vtu",
+                "segments.png"):
         if os.path.exists(path(old)):
             os.remove(path(old))  # the first stands for all results; the others may not come anew
     source = step("read", read, options.volume)
-    image = output_of(source)
-    name = choose_array(image, options.array)
-    fit = step("fit", fit_spline, source, name, options.tolerance, options.control_points or 50000)
+    name = choose_array(output_of(source), options.array)
+    segments = Segments()
+    fit = simple.TSplineReconstruction(
+        Input=source, Scalars=["POINTS", name], NumberOfSegments=options.segments or 0,
+        Domain="Automatic" if options.domain == "auto" else "Box", RMSTolerance=options.tolerance,
+        MaximumNumberOfControlPoints=options.control_points or 50000)
+    step("fit", run, fit, "the fit")
     step("write", save, path("model.tspline"), fit)
     model = step("read_back", read_back, path("model.tspline"))
-    resampled = step("resample", lambda: evaluate(path("resampled.vti"), model, "Image", Points=source))
+    if options.domain == "auto":
+        segments.take(fit)
+    elif options.segments is not None:
+        step("segment", segments.split, source, name, options.segments)
+        step("boundary", segments.bound)
+        step("domain", segments.lay_out)
+    resampled = step("resample", lambda: evaluate(path("resampled.vti"), model, "Image",
+                                                  Points=segments.labelled or source))
     hexes = step("hexahedra", lambda: evaluate(path("hexes.vtu"), model, "Linear Hexahedra"))
     bezier = step("bezier", lambda: evaluate(path("bezier.vtu"), model, "Bezier Hexahedra"))
-    if options.segments is not None:
-        segments = step("segment", segment, path("segments.vti"), source, name, options.segments)
-        boundary = step("boundary", bound, path("boundary.vtp"), segments)
-        layout = step("domain", lay_out, path("patches.vtp"), path("domain.vtu"), segments)
-        if layout:
-            step("frames", align, path("fields.vti"), layout)
-        step("segments_picture", picture.save_segments, path("segments.png"), segments, boundary,
-             name)
+    measured = step("report", measure, path("report.csv"), source, name, model,
+                    simple.OutputPort(fit, 1), segments)
+    if segments.surfaces:
+        step("save_segments", segments.save, path)
+        step("segments_picture", picture.save_segments, path("segments.png"), segments.labelled,
+             segments.surfaces, name)
     step("picture", picture.save, path("picture.png"), source, resampled, model, name)
 
-    rms, maximum = last_round(fit)
+    cubes = segments.polycubes and output_of(segments.polycubes).GetCellData()
     report = {
-        "voxels": image.GetNumberOfPoints(),
-        "control_points": output_of(model).GetNumberOfPoints(),
+        "voxels": int(measured["Voxels"]),
+        "control_points": int(measured["ControlPoints"]),
+        "numbers_stored": int(measured["NumbersStored"]),
         "tmesh_cells": count_cells(model),
         "bezier_cells": output_of(bezier).GetNumberOfCells(),
-        "rms_density_percent": rms,
-        "max_error": maximum,
-        "round_trip_rms_density_percent": round_trip_error(image, output_of(resampled), name),
-        **({} if options.segments is None else {"segments": count_segments(segments),
-                                                   "domains": count_domains(layout) if layout else 0}),
+        "rms_density_percent": number_or_none(measured["RMSPercent"]),
+        "max_error": measured["MaximumErrorPercent"] / 100.0,
+        "round_trip_rms_density_percent": measured["RoundTripRMSPercent"],
+        "found_percent": measured["FoundPercent"],
+        "segments": segments.labelled and 1 + int(
+            output_of(segments.labelled).GetPointData().GetArray("Segment").GetRange()[1]),
+        "domains": cubes and len(set(vtk_to_numpy(cubes.GetArray("Segment")))),
+        "corners": whole_or_none(measured["Corners"]),
+        "cubes": cubes and int((vtk_to_numpy(cubes.GetArray("Patch")) == -1).sum()),
+        "boundary_hausdorff_voxels": number_or_none(measured["HausdorffVoxels"]),
+        "min_scaled_jacobian": number_or_none(measured["MinimumScaledJacobian"]),
+        "inverted_cells": whole_or_none(measured["InvertedCells"]),
         "seconds": step.seconds,
         "peak_memory_bytes": 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss,
         "model_bytes": os.path.getsize(path("model.tspline")),
+        "raw_bytes": int(measured["RawBytes"]),
+        "zlib_bytes": int(measured["ZLibBytes"]),
+        "label_bytes": int(measured["LabelBytes"]),
         "threads": vtkSMPTools.GetEstimatedNumberOfThreads(),
         "version": trivariate.__version__,
     }

@@ -16,7 +16,7 @@ namespace trivariate
 namespace
 {
 constexpr Index CellsAtATime = 4096; // bounds the memory, and how long the user waits to be heard
-constexpr double WholeTolerance = 1e-9;
+constexpr double WholeTolerance = 1e-9, ConstantTolerance = 1e-9;
 constexpr int Rule = 3, Points = Rule * Rule * Rule;
 
 double ScaledJacobian(const double* g)
@@ -24,6 +24,21 @@ double ScaledJacobian(const double* g)
   const auto length = [g](int c) { return std::hypot(g[c], g[3 + c], g[6 + c]); };
   const double lengths = length(0) * length(1) * length(2);
   return lengths > 0.0 ? JacobianDeterminant(g) / lengths : 0.0;
+}
+
+// Whether each nine of the numbers are `wanted`.
+bool AreAll(const std::vector<double>& gradients, const std::array<double, 9>& wanted)
+{
+  const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  const double size = std::abs(*std::max_element(wanted.begin(), wanted.end(), smaller));
+  for (std::size_t i = 0; i < gradients.size(); ++i)
+  {
+    if (!(std::abs(gradients[i] - wanted[i % 9]) <= ConstantTolerance * size))
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 // Gauss's points of a cell, u fastest.
@@ -71,7 +86,8 @@ std::vector<Index> WholeCells(
 JacobianRange MeasureJacobian(
   const TSpline& spline, const BezierMesh& mesh, const Execution& execution)
 {
-  JacobianRange range{ std::numeric_limits<double>::quiet_NaN(), 0 };
+  JacobianRange range{ std::numeric_limits<double>::quiet_NaN(), 0, true };
+  std::array<double, 9> first{};
   const std::vector<Index> cells = WholeCells(spline, mesh, execution.Part(0.0, 0.2));
   const Index count = static_cast<Index>(cells.size());
   const Evaluator geometry(spline, mesh, { 0, 1, 2 }, execution.Part(0.2, 0.4));
@@ -90,6 +106,11 @@ JacobianRange MeasureJacobian(
     geometry.Evaluate((end - begin) * Points, points.data(), output,
       execution.Part(0.4 + 0.6 * begin / count, 0.4 + 0.6 * end / count));
     const double* g = gradients.data();
+    if (begin == 0)
+    {
+      std::copy_n(g, 9, first.begin());
+    }
+    range.Constant = range.Constant && AreAll(gradients, first);
     for (Index c = begin; c < end; ++c)
     {
       double smallest = 1.0;

@@ -19,6 +19,8 @@ struct JacobianRange
   /// degenerates. NaN without a cell.
   double Minimum;
   Index Inverted; ///< cells with a determinant <= 0 at one of their points
+  /// Whether all derivatives are the same everywhere, to 1e-9 of the largest: an affine map.
+  bool Constant;
 };
 
 /**

@@ -3,6 +3,8 @@
 #include "TSplineModel.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <set>
 
 namespace trivariate
@@ -16,6 +18,25 @@ bool IsTSplineArrayName(const std::string& name)
 
 namespace
 {
+// Numbers of knots on one line as those on another that has all of its knots.
+void Renumber(
+  const KnotLine& from, const KnotLine& to, int direction, std::vector<BlendingFunction>& functions)
+{
+  std::vector<std::int32_t> number;
+  for (const double knot : from)
+  {
+    number.push_back(
+      static_cast<std::int32_t>(std::lower_bound(to.begin(), to.end(), knot) - to.begin()));
+  }
+  for (BlendingFunction& f : functions)
+  {
+    for (std::int32_t& knot : f[direction])
+    {
+      knot = number[knot];
+    }
+  }
+}
+
 // Cuts the lines to the knots between the first and the last that functions use: the part's domain.
 void TrimKnotLines(TSpline& spline)
 {
@@ -72,6 +93,45 @@ TSplineModel SegmentPart(const TSplineModel& model, std::int32_t segment)
     }
   }
   return part;
+}
+
+//------------------------------------------------------------------------------
+TSplineModel JoinParts(const TSplineModel& first, const TSplineModel& second)
+{
+  if (first.Spline.Size() == 0 || second.Spline.Size() == 0)
+  {
+    return first.Spline.Size() == 0 ? second : first;
+  }
+  TSplineModel whole = first;
+  TSplineModel part = second;
+  const double shift =
+    std::floor(first.Spline.KnotLines[0].back() - second.Spline.KnotLines[0].front()) + 2.0;
+  for (double& knot : part.Spline.KnotLines[0])
+  {
+    knot += shift;
+  }
+  for (int a = 0; a < 3; ++a)
+  {
+    const KnotLine &one = first.Spline.KnotLines[a], &other = part.Spline.KnotLines[a];
+    KnotLine& line = whole.Spline.KnotLines[a];
+    line.clear();
+    std::set_union(one.begin(), one.end(), other.begin(), other.end(), std::back_inserter(line));
+    Renumber(one, line, a, whole.Spline.Functions);
+    Renumber(other, line, a, part.Spline.Functions);
+  }
+  const auto append = [](auto& to, const auto& from)
+  { to.insert(to.end(), from.begin(), from.end()); };
+  append(whole.Spline.Functions, part.Spline.Functions);
+  append(whole.Spline.Weights, part.Spline.Weights);
+  append(whole.Spline.ControlPoints, part.Spline.ControlPoints);
+  append(whole.Segment, part.Segment);
+  const std::int32_t blocks = 1 + *std::max_element(first.Block.begin(), first.Block.end());
+  for (const std::int32_t block : part.Block)
+  {
+    whole.Block.push_back(blocks + block);
+  }
+  whole.RootCells = { 0, 0, 0 };
+  return whole;
 }
 
 //------------------------------------------------------------------------------

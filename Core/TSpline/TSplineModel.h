@@ -47,6 +47,13 @@ std::vector<std::int32_t> SegmentsOf(const TSplineModel& model);
 /// another in parameter space, so this is the whole spline there. Knot lines end where they do.
 TSplineModel SegmentPart(const TSplineModel& model, std::int32_t segment);
 
+/**
+ * Brings two splines with the same attributes together: the second one lies at least one beyond the
+ * first one along u in parameter space, and its blocks are numbered after the first one's. Does
+ * nothing but return the other where one has no functions.
+ */
+TSplineModel JoinParts(const TSplineModel& first, const TSplineModel& second);
+
 /// The same spline with one attribute only, counted from 0.
 TSplineModel AttributePart(const TSplineModel& model, int attribute);
 

@@ -49,6 +49,9 @@ TEST(JacobianRange, OfAShearIsTheSineOfItsAngle)
     box.ControlPoint(i)[0] += box.ControlPoint(i)[1]; // 45 degrees
   }
   EXPECT_NEAR(Measure(box).Minimum, std::sqrt(0.5), 1e-12);
+  EXPECT_TRUE(Measure(box).Constant);
+  box.ControlPoint(box.Size() / 2)[2] += 1e-6;
+  EXPECT_FALSE(Measure(box).Constant);
 }
 
 // x = (u - 3)^2 turns round at u = 3, inside the second of four layers of cells.
@@ -64,6 +67,7 @@ TEST(JacobianRange, CountsTheCellsThatFold)
   }
   const JacobianRange range = Measure(box);
   EXPECT_EQ(range.Inverted, 2 * 16);
+  EXPECT_FALSE(range.Constant);
   EXPECT_NEAR(range.Minimum, -1.0, 1e-12);
 }
 
@@ -80,6 +84,7 @@ TEST(JacobianRange, LeavesOutCellsWithoutAllOfTheirFunctions)
   const JacobianRange range = Measure(box);
   EXPECT_EQ(range.Inverted, 0);
   EXPECT_NEAR(range.Minimum, 1.0, 1e-12);
+  EXPECT_TRUE(range.Constant);
 }
 
 TEST(JacobianRange, IsTheSameOnAnyNumberOfThreads)

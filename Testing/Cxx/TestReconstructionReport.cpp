@@ -96,6 +96,7 @@ vtkSmartPointer<vtkUnstructuredGrid> Together(TSplineModel first, TSplineModel s
   {
     knot += 100.0;
   }
+  second.Block.assign(second.Spline.Size(), 1);
   append->AddInputData(MakeGrid(first));
   append->AddInputData(MakeGrid(second));
   append->Update();
@@ -432,7 +433,7 @@ TEST(ReconstructionReport, StopsAndRunsAgain)
   auto image = Lattice(30, 30, 10);
   image->SetSpacing(0.06, 0.06, 0.1);
   AddArray<vtkDoubleArray>(image, "Radial", [](const double* x) { return x[0]; });
-  for (const double at : { 0.0, 0.2, 0.5, 0.8 })
+  for (const double at : { 0.0, 0.2, 0.45, 0.6 })
   {
     auto report = MakeReport(image, "Radial", grid);
     vtkNew<vtkCallbackCommand> stop;

@@ -18,9 +18,11 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from trivariate import vtkHydrogenOrbitalSource, vtkTSplineReader
 
 script = pathlib.Path(sys.argv[1]) / "reconstruct.sh"
-KEYS = ["voxels", "control_points", "tmesh_cells", "bezier_cells", "rms_density_percent",
-        "max_error", "round_trip_rms_density_percent", "segments", "domains", "seconds",
-        "peak_memory_bytes", "model_bytes", "threads", "version"]
+KEYS = ["voxels", "control_points", "numbers_stored", "tmesh_cells", "bezier_cells",
+        "rms_density_percent", "max_error", "round_trip_rms_density_percent", "found_percent",
+        "segments", "domains", "corners", "cubes", "boundary_hausdorff_voxels",
+        "min_scaled_jacobian", "inverted_cells", "seconds", "peak_memory_bytes", "model_bytes",
+        "raw_bytes", "zlib_bytes", "label_bytes", "threads", "version"]
 
 
 def run(*arguments):
@@ -41,7 +43,11 @@ def test_results():
         report = json.load(file)
     print(json.dumps(report, indent=2))
     assert list(report) == KEYS
-    assert report["voxels"] == 64**3
+    assert report["voxels"] == 64**3 and report["raw_bytes"] == 4 * 64**3
+    assert report["model_bytes"] < report["zlib_bytes"] < report["raw_bytes"]
+    assert report["found_percent"] == 100.0 and report["label_bytes"] == 0
+    assert abs(report["min_scaled_jacobian"] - 1.0) < 1e-9 and report["inverted_cells"] == 0
+    assert report["boundary_hausdorff_voxels"] is None  # a box has no boundary with a segment
     assert 600 < report["control_points"] <= 1200
     assert report["model_bytes"] == os.path.getsize("results/model.tspline")
     assert all(seconds >= 0.0 for seconds in report["seconds"].values())
@@ -82,6 +88,7 @@ def test_results():
 
     # Its largest lobe has a domain of cubes.
     assert report["domains"] == 1, done.stdout
+    assert report["corners"] >= 8 and report["cubes"] >= 1
     patches = read(vtkXMLPolyDataReader(), "patches.vtp").GetCellData()
     assert set(vtk_to_numpy(patches.GetArray("Segment"))) == {1}
     assert set(vtk_to_numpy(patches.GetArray("PatchAxis"))) == {0, 1, 2}
@@ -103,6 +110,27 @@ def test_results():
     assert dark[:, :800].mean() > 0.05 and dark[:, 800:].mean() > dark[:, :800].mean()
 
 
+def test_segments():
+    """A spline for each segment; the image is written back from them."""
+    done = run("--output", "parts", "--control-points", "1200", "--domain", "auto",
+               "--segments", "2")
+    assert done.returncode == 0, done.stdout + done.stderr
+    with open("parts/report.json", encoding="utf-8") as file:
+        report = json.load(file)
+    assert list(report) == KEYS and report["segments"] == 2
+    assert report["found_percent"] == 100.0 and 600 < report["control_points"] <= 1200
+    assert report["label_bytes"] > 0
+    assert report["round_trip_rms_density_percent"] < 1.0, report
+    with open("parts/report.csv", encoding="utf-8") as file:
+        assert len(file.readlines()) == 1 + 3
+    grid = vtkTSplineReader()
+    grid.SetFileName("parts/model.tspline")
+    grid.Update()
+    assert set(vtk_to_numpy(grid.GetOutput().GetPointData().GetArray("Segment"))) == {0, 1}
+    for name in ("resampled.vti", "segments.vti", "boundary.vtp", "segments.png", "picture.png"):
+        assert os.path.getsize(os.path.join("parts", name)) > 0
+
+
 def test_faults():
     pathlib.Path("text.vti").write_text("not an image\n")
     pathlib.Path("file").write_text("")
@@ -112,6 +140,7 @@ def test_faults():
             ("--tolerance is a percentage", "--tolerance", "small"),
             ("--control-points is a whole number", "--control-points", "63"),
             ("--segments is a whole number", "--segments", "65"),
+            ("--domain is box or auto", "--domain", "ball"),
             ("one volume at a time", "a.vti", "b.vti"),
             ("there is no file", "absent.vti"),
             ("cannot be made", "--output", "file/below"),
@@ -125,4 +154,5 @@ def test_faults():
 
 
 test_results()
+test_segments()
 test_faults()

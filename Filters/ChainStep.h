@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * One filter inside another: its progress, its abort and its messages are those of the outer one.
+ */
+#ifndef ChainStep_h
+#define ChainStep_h
+
+#include "vtkAlgorithm.h"
+#include "vtkCallbackCommand.h"
+#include "vtkNew.h"
+
+#include <string>
+#include <vector>
+
+namespace trivariate
+{
+class ChainStep
+{
+public:
+  /// `step` and `chain` must outlive this object; the chain's progress goes from `from` to `to`
+  /// while the step runs.
+  ChainStep(vtkAlgorithm* step, vtkAlgorithm* chain, double from, double to);
+  ~ChainStep();
+  ChainStep(const ChainStep&) = delete;
+  void operator=(const ChainStep&) = delete;
+
+  /// Updates the step. Throws Aborted when the chain was asked to stop, std::runtime_error with the
+  /// step's own sentence when it failed.
+  void Run();
+
+  /// What the step warned of.
+  const std::vector<std::string>& Warnings() const { return this->WarningTexts; }
+
+private:
+  static void Hear(vtkObject* caller, unsigned long event, void* self, void* text);
+
+  vtkAlgorithm* Step;
+  vtkAlgorithm* Chain;
+  double From, To;
+  std::vector<std::string> ErrorTexts, WarningTexts;
+  vtkNew<vtkCallbackCommand> Listener, Silence;
+  std::vector<unsigned long> Tags;
+  unsigned long SilenceTag;
+};
+}
+
+#endif

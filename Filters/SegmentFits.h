@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * One T-spline for each segment of an image, all of them in one parameter space.
+ */
+#ifndef SegmentFits_h
+#define SegmentFits_h
+
+#include "TSpline/TSplineModel.h"
+
+#include <string>
+#include <vector>
+
+class vtkAlgorithm;
+class vtkImageData;
+class vtkTable;
+
+namespace trivariate
+{
+struct SegmentFitOptions
+{
+  std::string Array;                ///< point array to fit
+  std::vector<std::string> Further; ///< and those beside it
+  int MaximumControlPoints = 0;     ///< of all segments together
+  double RmsTolerance = 0.0;        ///< percent of the array's range over the whole image; 0: none
+};
+
+/**
+ * Fits the voxels of each label in the point array Segment over the label's bounding box, the
+ * others masked. Control points are shared out by PointShares; what a segment leaves when it meets
+ * the tolerance goes to those after it, of which the one with the largest share is the last. The
+ * rounds of all fits go to the table, with a column Segment. Progress, abort and messages are those
+ * of `chain`, from `from` to `to`. Throws as ChainStep does.
+ */
+TSplineModel FitSegments(vtkImageData* image, const SegmentFitOptions& options, vtkTable* rounds,
+  vtkAlgorithm* chain, double from, double to);
+}
+
+#endif

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkTSplineReconstruction
+ * @brief   from a volume image to a T-spline in one step
+ *
+ * Splits the image into segments and fits a T-spline to each of them, with automatic choices; all
+ * lie in one parameter space and are one T-spline grid. Every voxel of the image is represented,
+ * the background too, so that vtkTSplineSource writes the whole image back (with the segmented
+ * image as its second input, which tells whose spline counts where).
+ *
+ * The chain is that of vtkTextureSegmentation, vtkSegmentTopology, vtkSegmentBoundary,
+ * vtkPolycubeDomain and vtkTSplineFit, each with its defaults. A segment is fitted over its
+ * bounding box, the voxels of other segments masked. A warning tells why a segment has no domain of
+ * cubes.
+ *
+ * @par Input
+ * Port 0: a vtkImageData with two or more points along each axis. The point array to fit is chosen
+ * with SetInputArrayToProcess(0, ...), those named with AddAttribute are fitted beside it. A point
+ * array of labels, whole numbers from 0, that is chosen with SetInputArrayToProcess(1, ...) takes
+ * the place of the segmentation; the default "None" is none.
+ *
+ * @par Output
+ * Port 0: the T-spline grid; the control points' arrays Segment and Block tell whose they are.
+ * Port 1: vtkTable, the rounds of all fits, with the columns of vtkTSplineFit and Segment.
+ * With Domain AUTOMATIC also:
+ * Port 2: the image with the point array Segment. Port 3: vtkPolyData, the surfaces of the segments
+ * of vtkSegmentBoundary. Port 4: vtkPolyData, patches, and port 5: vtkUnstructuredGrid, polycubes,
+ * of vtkPolycubeDomain, of those segments that have one.
+ *
+ * @par Cost
+ * The sum of the steps; memory that of the most expensive one. Threaded with vtkSMPTools; the
+ * result does not depend on the number of threads.
+ *
+ * @par Distributed data
+ * Under several processes the pieces are gathered to process 0 with a warning; it gives the same
+ * result as one process would, the others give empty outputs.
+ *
+ * @par Errors
+ * What the first step that cannot go on says: an image without points or the chosen array, one
+ * voxel thick, with NaN or infinity, too large for the memory; labels that are no whole numbers or
+ * negative.
+ *
+ * @sa vtkReconstructionReport vtkTSplineFit vtkTSplineSource
+ */
+#ifndef vtkTSplineReconstruction_h
+#define vtkTSplineReconstruction_h
+
+#include "vtkTrivariateFiltersModule.h" // for export macro
+#include "vtkUnstructuredGridAlgorithm.h"
+
+#include <string> // for Attributes
+#include <vector> // for Attributes
+
+class vtkDataArray;
+class vtkImageData;
+class vtkMultiProcessController;
+
+class VTKTRIVARIATEFILTERS_EXPORT vtkTSplineReconstruction : public vtkUnstructuredGridAlgorithm
+{
+public:
+  static vtkTSplineReconstruction* New();
+  vtkTypeMacro(vtkTSplineReconstruction, vtkUnstructuredGridAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum Domains
+  {
+    /// One spline over the image's box: vtkTSplineFit.
+    BOX = 0,
+    /// A spline for each segment.
+    AUTOMATIC = 1
+  };
+
+  ///@{
+  /**
+   * Over what is fitted. Default is AUTOMATIC.
+   */
+  vtkSetClampMacro(Domain, int, BOX, AUTOMATIC);
+  vtkGetMacro(Domain, int);
+  void SetDomainToBox() { this->SetDomain(BOX); }
+  void SetDomainToAutomatic() { this->SetDomain(AUTOMATIC); }
+  ///@}
+
+  ///@{
+  /**
+   * How many segments, the background included; 0 looks for their number as vtkTextureSegmentation
+   * does. Not used with labels of one's own. Valid range [0, 64]. Default is 0.
+   */
+  vtkSetClampMacro(NumberOfSegments, int, 0, 64);
+  vtkGetMacro(NumberOfSegments, int);
+  ///@}
+
+  ///@{
+  /**
+   * Most control points of all segments together, though no segment has fewer than 64. They are
+   * shared out by how much the values bend within a segment and by its size. Valid range [64,
+   * VTK_INT_MAX]. Default is 50000.
+   */
+  vtkSetClampMacro(MaximumNumberOfControlPoints, int, 64, VTK_INT_MAX);
+  vtkGetMacro(MaximumNumberOfControlPoints, int);
+  ///@}
+
+  ///@{
+  /**
+   * A segment is not refined further when its root mean square error is at most this many percent
+   * of the range of the array over the image. 0 is no such limit. Valid range [0, 100]. Default is
+   * 0.1.
+   */
+  vtkSetClampMacro(RMSTolerance, double, 0.0, 100.0);
+  vtkGetMacro(RMSTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Names of further point arrays that are fitted beside the chosen one. Default is none.
+   */
+  void AddAttribute(const char* name);
+  void ClearAttributes();
+  int GetNumberOfAttributes() const { return static_cast<int>(this->Attributes.size()); }
+  const char* GetAttribute(int i) const;
+  ///@}
+
+  ///@{
+  /**
+   * Processes that share distributed data. Default is the global controller.
+   */
+  void SetController(vtkMultiProcessController* controller);
+  vtkMultiProcessController* GetController() const { return this->Controller; }
+  ///@}
+
+protected:
+  vtkTSplineReconstruction();
+  ~vtkTSplineReconstruction() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkTSplineReconstruction(const vtkTSplineReconstruction&) = delete;
+  void operator=(const vtkTSplineReconstruction&) = delete;
+
+  // The arrays that the chain needs, the first one the chosen one.
+  std::vector<vtkDataArray*> ChosenArrays(vtkImageData* image);
+  void FitBox(vtkImageData* image, vtkInformationVector* outputVector);
+  void FitParts(vtkImageData* image, bool labelled, vtkInformationVector* outputVector);
+  void LayOut(vtkImageData* segments, vtkInformationVector* outputVector);
+
+  int Domain = AUTOMATIC;
+  int NumberOfSegments = 0;
+  int MaximumNumberOfControlPoints = 50000;
+  double RMSTolerance = 0.1;
+  std::vector<std::string> Attributes;
+  vtkMultiProcessController* Controller = nullptr;
+};
+
+#endif
