@@ -157,7 +157,7 @@ public:
   /**
    * Over a domain, the shape is refined until the root mean square distance of its samples from it
    * is at most this many voxels, those on the surface counting 25 times. Valid range [0, 100].
-   * Default is 0.1.
+   * Default is 0.05.
    */
   vtkSetClampMacro(ShapeTolerance, double, 0.0, 100.0);
   vtkGetMacro(ShapeTolerance, double);
@@ -227,7 +227,7 @@ private:
   double RMSTolerance = 0.0;
   double MaximumErrorTolerance = 0.0;
   bool LinearlyIndependent = true;
-  double ShapeTolerance = 0.1;
+  double ShapeTolerance = 0.05;
   double ShapeShare = 0.5;
   std::vector<std::string> Attributes;
   std::string MaskArray = "None";

@@ -44,7 +44,7 @@ struct BlockFitOptions
   double MaximumErrorTolerance = 0.0;
   /// The shape is refined until the root mean square distance of its samples on the surface is at
   /// most this, in the unit of the places, or it has MaximumShapePoints control points.
-  double ShapeTolerance = 0.1;
+  double ShapeTolerance = 0.05;
   Index MaximumShapePoints = 2000;
   double Spacing = 1.0;  ///< distance of voxels in the unit of the places
   int CoarsestCells = 1; ///< along the edge of a block, a power of two

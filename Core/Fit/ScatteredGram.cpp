@@ -203,37 +203,41 @@ GramMatrix ScatteredSystem::Assemble()
   };
   const Index blocks = (this->Cells->Size() + CellsOfBlock - 1) / CellsOfBlock;
   std::vector<SparseBlock> sparse(blocks);
-  this->Run.ParallelFor(blocks,
-    [this, &sparse](Index begin, Index end)
-    {
-      for (Index b = begin; b < end; ++b)
+  constexpr Index Batch = 32; // blocks between two looks at the abort flag
+  for (Index firstBlock = 0; firstBlock < blocks; firstBlock += Batch)
+  {
+    this->Run.Check(0.0);
+    this->Run.ParallelFor(std::min(Batch, blocks - firstBlock),
+      [this, &sparse, firstBlock](Index begin, Index end)
       {
-        const LocalMatrix matrix = this->AssembleBlock(
-          b * CellsOfBlock, std::min(this->Cells->Size(), (b + 1) * CellsOfBlock));
-        const std::size_t size = matrix.Points.size();
-        SparseBlock& out = sparse[b];
-        for (std::size_t r = 0; r < size; ++r)
+        for (Index b = firstBlock + begin; b < firstBlock + end; ++b)
         {
-          const Index first = static_cast<Index>(out.Columns.size());
-          for (std::size_t c = 0; c < size; ++c)
+          const LocalMatrix matrix = this->AssembleBlock(
+            b * CellsOfBlock, std::min(this->Cells->Size(), (b + 1) * CellsOfBlock));
+          const std::size_t size = matrix.Points.size();
+          SparseBlock& out = sparse[b];
+          for (std::size_t r = 0; r < size; ++r)
           {
-            const float value = matrix.Values[r * size + c];
-            if (value != 0.0f)
+            const Index first = static_cast<Index>(out.Columns.size());
+            for (std::size_t c = 0; c < size; ++c)
             {
-              out.Columns.push_back(matrix.Points[c]);
-              out.Values.push_back(value);
+              const float value = matrix.Values[r * size + c];
+              if (value != 0.0f)
+              {
+                out.Columns.push_back(matrix.Points[c]);
+                out.Values.push_back(value);
+              }
             }
+            out.Rows.push_back(
+              { matrix.Points[r], { first, static_cast<Index>(out.Columns.size()) } });
           }
-          out.Rows.push_back(
-            { matrix.Points[r], { first, static_cast<Index>(out.Columns.size()) } });
+          for (std::size_t f = 0; f < matrix.Functions.size(); ++f)
+          {
+            out.Norms.push_back({ matrix.Functions[f], matrix.Norms[f] });
+          }
         }
-        for (std::size_t f = 0; f < matrix.Functions.size(); ++f)
-        {
-          out.Norms.push_back({ matrix.Functions[f], matrix.Norms[f] });
-        }
-      }
-    });
-  this->Run.Check(0.0);
+      });
+  }
 
   const Index n = this->Shared.Count();
   std::vector<std::vector<Piece>> pieces(n);

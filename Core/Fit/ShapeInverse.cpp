@@ -111,20 +111,26 @@ FoundParameters FindParametersOnShape(const TSpline& spline, const BezierMesh& m
     }
   }
   result.Inside = n - static_cast<Index>(lost.size());
-  execution.ParallelFor(static_cast<Index>(lost.size()),
-    [&](Index begin, Index end)
-    {
-      for (Index k = begin; k < end; ++k)
+  constexpr Index Batch = 1 << 12; // between two looks at the abort flag
+  const Index count = static_cast<Index>(lost.size());
+  for (Index first = 0; first < count; first += Batch)
+  {
+    execution.Check(static_cast<double>(first) / count);
+    execution.ParallelFor(std::min(Batch, count - first),
+      [&, first](Index begin, Index end)
       {
-        const double* place = &places[3 * lost[k]];
-        const double* start = starts.empty()
-                                ? &samples.Parameters[3 * NearestSample(samples.Places, place)]
-                                : &starts[3 * lost[k]];
-        std::array<double, 3> p{ start[0], start[1], start[2] };
-        ProjectIntoBox(evaluator, place, blocks.Origins[blocks.BlockAt(p)], p);
-        std::copy(p.begin(), p.end(), &result.Parameters[3 * lost[k]]);
-      }
-    });
+        for (Index k = first + begin; k < first + end; ++k)
+        {
+          const double* place = &places[3 * lost[k]];
+          const double* start = starts.empty()
+                                  ? &samples.Parameters[3 * NearestSample(samples.Places, place)]
+                                  : &starts[3 * lost[k]];
+          std::array<double, 3> p{ start[0], start[1], start[2] };
+          ProjectIntoBox(evaluator, place, blocks.Origins[blocks.BlockAt(p)], p);
+          std::copy(p.begin(), p.end(), &result.Parameters[3 * lost[k]]);
+        }
+      });
+  }
   return result;
 }
 }

@@ -111,45 +111,49 @@ std::vector<CellJacobian> BoundJacobian(
   const std::vector<double> bezier = ExtractBezier(spline, mesh, { 0, 1, 2 }, execution);
   const Matrix9 toCoefficients = InverseCollocation();
   std::vector<CellJacobian> bounds(mesh.Size());
-  execution.ParallelFor(mesh.Size(),
-    [&](Index begin, Index end)
-    {
-      for (Index cell = begin; cell < end; ++cell)
+  constexpr Index Batch = 1 << 11; // between two looks at the abort flag
+  for (Index first = 0; first < mesh.Size(); first += Batch)
+  {
+    execution.Check(static_cast<double>(first) / mesh.Size());
+    execution.ParallelFor(std::min(Batch, mesh.Size() - first),
+      [&, first](Index begin, Index end)
       {
-        const auto box = mesh.Bounds(cell);
-        std::vector<BernsteinJet<1>> jets[3];
-        for (int a = 0; a < 3; ++a)
+        for (Index cell = first + begin; cell < first + end; ++cell)
         {
-          for (int i = 0; i < N; ++i)
-          {
-            jets[a].emplace_back(i / (N - 1.0), 1.0 / (box[2 * a + 1] - box[2 * a]));
-          }
-        }
-        Coefficients values(N * N * N);
-        for (int m = 0; m < N * N * N; ++m)
-        {
-          double gradients[9];
-          for (int c = 0; c < 3; ++c)
-          {
-            double jet[4];
-            PolynomialJet<1>(&bezier[64 * (3 * cell + c)], jets[0][m % N], jets[1][m / N % N],
-              jets[2][m / (N * N)], jet);
-            std::copy_n(jet + 1, 3, gradients + 3 * c);
-          }
-          values[m] = JacobianDeterminant(gradients);
-        }
-        bounds[cell].Sampled = *std::min_element(values.begin(), values.end());
-        if (bounds[cell].Sampled > 0.0)
-        {
+          const auto box = mesh.Bounds(cell);
+          std::vector<BernsteinJet<1>> jets[3];
           for (int a = 0; a < 3; ++a)
           {
-            values = Along(a, toCoefficients, values);
+            for (int i = 0; i < N; ++i)
+            {
+              jets[a].emplace_back(i / (N - 1.0), 1.0 / (box[2 * a + 1] - box[2 * a]));
+            }
           }
-          bounds[cell].Certified = IsPositive(values, 2);
+          Coefficients values(N * N * N);
+          for (int m = 0; m < N * N * N; ++m)
+          {
+            double gradients[9];
+            for (int c = 0; c < 3; ++c)
+            {
+              double jet[4];
+              PolynomialJet<1>(&bezier[64 * (3 * cell + c)], jets[0][m % N], jets[1][m / N % N],
+                jets[2][m / (N * N)], jet);
+              std::copy_n(jet + 1, 3, gradients + 3 * c);
+            }
+            values[m] = JacobianDeterminant(gradients);
+          }
+          bounds[cell].Sampled = *std::min_element(values.begin(), values.end());
+          if (bounds[cell].Sampled > 0.0)
+          {
+            for (int a = 0; a < 3; ++a)
+            {
+              values = Along(a, toCoefficients, values);
+            }
+            bounds[cell].Certified = IsPositive(values, 2);
+          }
         }
-      }
-    });
-  execution.Check(0.0);
+      });
+  }
   return bounds;
 }
 }
