@@ -22,6 +22,19 @@ inline bool ArePiecesShared(
            controller->GetNumberOfProcesses();
 }
 
+/// Asks a source for the piece that is wanted here where pieces are brought together, else for all.
+inline void RequestPiece(
+  vtkInformation* inInfo, vtkInformationVector* outputVector, bool piecesAreShared)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* outInfo = outputVector->GetInformationObject(0);
+  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(),
+    piecesAreShared ? outInfo->Get(Pipeline::UPDATE_PIECE_NUMBER()) : 0);
+  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(),
+    piecesAreShared ? outInfo->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) : 1);
+}
+
 /// Asks an image's source for all of it.
 inline void RequestWholeImage(vtkInformation* inInfo)
 {

@@ -135,8 +135,6 @@ int vtkFrameField::FillOutputPortInformation(int port, vtkInformation* info)
 int vtkFrameField::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  vtkInformation* outInfo = outputVector->GetInformationObject(0);
   const bool gathering = ArePiecesShared(this->Controller, outputVector);
   if (!gathering)
   {
@@ -144,12 +142,7 @@ int vtkFrameField::RequestUpdateExtent(
   }
   if (inputVector[1]->GetNumberOfInformationObjects() > 0)
   {
-    vtkInformation* inInfo = inputVector[1]->GetInformationObject(0);
-    inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-    inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(),
-      gathering ? outInfo->Get(Pipeline::UPDATE_PIECE_NUMBER()) : 0);
-    inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(),
-      gathering ? outInfo->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) : 1);
+    RequestPiece(inputVector[1]->GetInformationObject(0), outputVector, gathering);
   }
   return 1;
 }

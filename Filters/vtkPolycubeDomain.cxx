@@ -238,19 +238,12 @@ int vtkPolycubeDomain::FillOutputPortInformation(int port, vtkInformation* info)
 int vtkPolycubeDomain::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  vtkInformation* outInfo = outputVector->GetInformationObject(0);
   const bool gathering = ArePiecesShared(this->Controller, outputVector);
   for (int port = 0; port < 2; ++port)
   {
     if (inputVector[port]->GetNumberOfInformationObjects() > 0)
     {
-      vtkInformation* inInfo = inputVector[port]->GetInformationObject(0);
-      inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-      inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(),
-        gathering ? outInfo->Get(Pipeline::UPDATE_PIECE_NUMBER()) : 0);
-      inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(),
-        gathering ? outInfo->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) : 1);
+      RequestPiece(inputVector[port]->GetInformationObject(0), outputVector, gathering);
     }
   }
   return 1;

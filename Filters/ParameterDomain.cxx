@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ParameterDomain.h"
+
+#include "LatticeSurface.h"
+#include "Parameter/BlockLocation.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+namespace trivariate
+{
+using Eigen::Vector3d;
+
+namespace
+{
+// Voxels farther from the block mesh than so many of their sides have no parameter.
+constexpr double FarthestFromMesh = 1.5;
+
+BlockComplex ComplexOf(const DomainInput& input)
+{
+  std::vector<LatticePoint> places;
+  for (const BlockPoints& block : input.Domain.Blocks)
+  {
+    places.push_back(input.Coordinates[block[0]]);
+  }
+  // Groups that had to be split are numbered anew: again, so that whoever reads the new groups
+  // finds the same places for them.
+  const BlockComplex first(input.Domain.Blocks, input.Domain.Segments, input.Groups, places);
+  return BlockComplex(input.Domain.Blocks, input.Domain.Segments, first.Groups, places);
+}
+
+// Frames in the axes of the grid.
+ParameterVoxels VoxelsOf(
+  const ImageSamples& samples, const GridSpace& space, const std::vector<std::uint8_t>& mask)
+{
+  const Index count = samples.Count();
+  return { { samples.Points(0), samples.Points(1), samples.Points(2) }, space.Spacing, mask.data(),
+    [&samples, count, axes = space.Axes](Index id) -> Eigen::Matrix3d
+    {
+      Eigen::Matrix3d frame;
+      for (int c = 0; c < 9; ++c)
+      {
+        frame(c / 3, c % 3) = samples.Values[(c + 1) * count + id];
+      }
+      return frame * axes;
+    } };
+}
+
+void SolveSegments(const ImageSamples& samples, vtkPolyData* patches, const GridSpace& space,
+  const ParameterOptions& options, ParameterDomain& domain, const Execution& execution)
+{
+  const std::vector<int>& owners = domain.Input.Domain.Segments;
+  const std::set<int> segments(owners.begin(), owners.end());
+  std::size_t done = 0;
+  for (const int segment : segments)
+  {
+    const double share = 1.0 / static_cast<double>(segments.size());
+    const double from = share * static_cast<double>(done++);
+    try
+    {
+      const ParameterSurface surface = LatticeSurfaceOf(patches, domain.Input, segment, space);
+      if (surface.Triangles.empty())
+      {
+        continue;
+      }
+      std::vector<std::uint8_t> mask(samples.Count());
+      std::transform(samples.Values.begin(), samples.Values.begin() + samples.Count(), mask.begin(),
+        [segment](double label) { return static_cast<std::uint8_t>(label == segment ? 1 : 0); });
+      domain.Solved.emplace(segment, SolveVoxelParameter(VoxelsOf(samples, space, mask), surface,
+                                       options, execution.Part(from, from + share)));
+    }
+    catch (const std::invalid_argument& error)
+    {
+      throw std::invalid_argument("Segment " + std::to_string(segment) + ": " + error.what());
+    }
+    catch (const std::runtime_error& error)
+    {
+      throw std::runtime_error("Segment " + std::to_string(segment) + ": " + error.what());
+    }
+  }
+}
+
+void LocateVoxels(const ImageSamples& samples, const GridSpace& space, ParameterDomain& domain,
+  const Execution& execution)
+{
+  const std::vector<int>& owners = domain.Input.Domain.Segments;
+  const std::set<int> segments(owners.begin(), owners.end());
+  const Index count = samples.Count();
+  std::vector<Index> voxels;
+  std::vector<Vector3d> points;
+  for (Index id = 0; id < count; ++id)
+  {
+    if (segments.count(static_cast<int>(samples.Values[id])) != 0)
+    {
+      const Index nx = samples.Points(0), ny = samples.Points(1);
+      const Vector3d index(static_cast<double>(id % nx), static_cast<double>(id / nx % ny),
+        static_cast<double>(id / (nx * ny)));
+      voxels.push_back(id);
+      points.push_back(space.ToSpace(index.cwiseProduct(space.Spacing)));
+    }
+  }
+  const std::vector<BlockLocation> locations =
+    LocateInBlocks(domain.Mesh, points, FarthestFromMesh * space.Spacing.maxCoeff(), execution);
+  domain.Parameter.assign(3 * count, 0.0);
+  domain.Block.assign(count, -1);
+  domain.Mask.assign(count, 0);
+  for (std::size_t v = 0; v < voxels.size(); ++v)
+  {
+    const BlockLocation& location = locations[v];
+    if (location.Block >= 0)
+    {
+      const LatticePoint& origin = domain.Complex.Origins[location.Block];
+      for (int a = 0; a < 3; ++a)
+      {
+        domain.Parameter[3 * voxels[v] + a] = origin[a] + location.Parameter[a];
+      }
+      domain.Block[voxels[v]] = domain.Complex.Groups[location.Block];
+      domain.Mask[voxels[v]] = 1;
+    }
+  }
+}
+}
+
+//------------------------------------------------------------------------------
+ParameterDomain ParameterizeDomain(const ImageSamples& samples, vtkPolyData* patches,
+  vtkUnstructuredGrid* polycube, const ParameterSettings& settings, const Execution& execution)
+{
+  const GridSpace space(samples.IndexToPhysical, samples.Extent);
+  ParameterDomain domain{ ReadDomain(patches, polycube), {}, {}, {}, {}, {}, {}, {} };
+  domain.Complex = ComplexOf(domain.Input);
+  SolveSegments(samples, patches, space, settings.Options, domain, execution.Part(0.0, 0.3));
+  BlockMeshOptions options;
+  options.CellLength = settings.CellLength * std::cbrt(space.Spacing.prod());
+  domain.Mesh =
+    MakeBlockMesh(domain.Input.Domain, options, execution.Part(0.3, 0.9), &domain.Report);
+  LocateVoxels(samples, space, domain, execution.Part(0.9, 1.0));
+  return domain;
+}
+}

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// What vtkVolumeParameterization computes, without its pipeline.
+#ifndef ParameterDomain_h
+#define ParameterDomain_h
+
+#include "Domain/BlockComplex.h"
+#include "DomainInput.h"
+#include "ImageSamples.h"
+#include "Parameter/BlockMeshing.h"
+#include "Parameter/VoxelParameter.h"
+
+#include <map>
+
+namespace trivariate
+{
+struct ParameterSettings
+{
+  ParameterOptions Options;
+  double CellLength = 2.0; ///< of the block mesh, in voxels
+};
+
+struct ParameterDomain
+{
+  DomainInput Input;
+  BlockComplex Complex; ///< with the groups that it makes of the polycube's
+  BlockMesh Mesh;       ///< in space
+  BlockMeshReport Report;
+  std::map<int, VoxelParameter> Solved; ///< of the segments whose cubes lie in a lattice
+
+  /// Of each voxel of the image: the parameter in the one space of all blocks, the group of its
+  /// block, or -1, and 1 where that is known, else 0.
+  std::vector<double> Parameter;
+  std::vector<std::int32_t> Block;
+  std::vector<std::uint8_t> Mask;
+};
+
+/**
+ * Segment (one component, whole numbers) and FrameU, FrameV, FrameW (three components) are the
+ * attributes of the samples. Throws std::invalid_argument with a sentence for the user.
+ */
+ParameterDomain ParameterizeDomain(const ImageSamples& samples, vtkPolyData* patches,
+  vtkUnstructuredGrid* polycube, const ParameterSettings& settings, const Execution& execution);
+}
+
+#endif

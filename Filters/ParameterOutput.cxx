@@ -1,0 +1,239 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ParameterOutput.h"
+
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkIntArray.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkSmartPointer.h"
+#include "vtkStructuredData.h"
+#include "vtkStructuredGrid.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <string>
+
+namespace trivariate
+{
+namespace
+{
+template <typename ArrayT>
+vtkNew<ArrayT> Named(const char* name, int components, vtkIdType tuples)
+{
+  vtkNew<ArrayT> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(tuples);
+  return array;
+}
+
+template <typename ArrayT, typename T>
+vtkNew<ArrayT> Copied(const char* name, int components, const std::vector<T>& values)
+{
+  vtkNew<ArrayT> array =
+    Named<ArrayT>(name, components, static_cast<vtkIdType>(values.size()) / components);
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  return array;
+}
+
+// The mean length of a block's grid lines along its axes.
+Eigen::Vector3d LengthsOf(const BlockMesh& mesh, Index block)
+{
+  Eigen::Vector3d lengths;
+  const std::array<int, 3>& n = mesh.Sizes[block];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    double sum = 0.0;
+    int lines = 0;
+    std::array<int, 3> at{};
+    const int s = (axis + 1) % 3, t = (axis + 2) % 3;
+    for (at[s] = 0; at[s] <= n[s]; ++at[s])
+    {
+      for (at[t] = 0; at[t] <= n[t]; ++at[t], ++lines)
+      {
+        for (at[axis] = 0; at[axis] < n[axis]; ++at[axis])
+        {
+          std::array<int, 3> next = at;
+          ++next[axis];
+          sum += (mesh.Places[mesh.Node(block, next[0], next[1], next[2])] -
+                  mesh.Places[mesh.Node(block, at[0], at[1], at[2])])
+                   .norm();
+        }
+      }
+    }
+    lengths[axis] = sum / lines;
+  }
+  return lengths;
+}
+
+void AddFieldData(const ParameterDomain& domain, vtkFieldData* fields)
+{
+  const CellQuality &start = domain.Report.Start, &end = domain.Report.End;
+  fields->AddArray(Copied<vtkIdTypeArray>(
+    "InvertedCells", 2, std::vector<vtkIdType>{ start.Inverted, end.Inverted }));
+  fields->AddArray(Copied<vtkDoubleArray>(
+    "ScaledJacobian", 2, std::vector<double>{ end.LeastJacobian, end.MeanJacobian }));
+  std::vector<int> segments, iterations;
+  std::vector<double> residuals, deviations, lengths;
+  for (const auto& [segment, solved] : domain.Solved)
+  {
+    segments.push_back(segment);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const ParameterSolve& solve = solved.Solves[axis];
+      iterations.push_back(solve.Iterations);
+      residuals.push_back(solve.Residual);
+      deviations.push_back(solve.MeanDeviation / solved.Lengths[axis].back());
+      lengths.push_back(solved.Lengths[axis].back());
+    }
+  }
+  fields->AddArray(Copied<vtkIntArray>("ParameterSegment", 1, segments));
+  fields->AddArray(Copied<vtkIntArray>("ParameterIterations", 3, iterations));
+  fields->AddArray(Copied<vtkDoubleArray>("ParameterResidual", 3, residuals));
+  fields->AddArray(Copied<vtkDoubleArray>("ParameterDeviation", 3, deviations));
+  fields->AddArray(Copied<vtkDoubleArray>("ParameterLengths", 3, lengths));
+}
+
+// The tuples of an extent within the whole.
+vtkSmartPointer<vtkDataArray> Cut(vtkDataArray* whole, const int* wholeExtent, const int* extent)
+{
+  vtkSmartPointer<vtkDataArray> part;
+  part.TakeReference(whole->NewInstance());
+  part->SetName(whole->GetName());
+  part->SetNumberOfComponents(whole->GetNumberOfComponents());
+  const vtkIdType row = extent[1] - extent[0] + 1;
+  part->SetNumberOfTuples(row * (extent[3] - extent[2] + 1) * (extent[5] - extent[4] + 1));
+  vtkIdType to = 0;
+  for (int k = extent[4]; k <= extent[5]; ++k)
+  {
+    for (int j = extent[2]; j <= extent[3]; ++j, to += row)
+    {
+      int first[3] = { extent[0], j, k };
+      part->InsertTuples(
+        to, row, vtkStructuredData::ComputePointIdForExtent(wholeExtent, first), whole);
+    }
+  }
+  return part;
+}
+}
+
+//------------------------------------------------------------------------------
+void WriteParameters(const ParameterDomain& domain, vtkImageData* image)
+{
+  image->GetPointData()->AddArray(Copied<vtkDoubleArray>("Parameter", 3, domain.Parameter));
+  image->GetPointData()->AddArray(Copied<vtkUnsignedCharArray>("ParameterMask", 1, domain.Mask));
+  image->GetPointData()->AddArray(Copied<vtkIntArray>("Block", 1, domain.Block));
+  AddFieldData(domain, image->GetFieldData());
+}
+
+//------------------------------------------------------------------------------
+void WriteLengths(const ParameterDomain& domain, vtkUnstructuredGrid* polycube)
+{
+  const vtkNew<vtkDoubleArray> positions =
+    Named<vtkDoubleArray>("DomainPosition", 3, polycube->GetNumberOfPoints());
+  positions->Fill(0.0);
+  const DomainInput& input = domain.Input;
+  for (Index block = 0; block < domain.Complex.Size(); ++block)
+  {
+    const auto solved = domain.Solved.find(domain.Complex.Segments[block]);
+    for (const Index point : input.Domain.Blocks[block])
+    {
+      for (int axis = 0; axis < 3 && solved != domain.Solved.end(); ++axis)
+      {
+        const std::vector<int>& planes = solved->second.Coordinates[axis];
+        const auto at =
+          std::lower_bound(planes.begin(), planes.end(), input.Coordinates[point][axis]);
+        if (at != planes.end())
+        {
+          positions->SetComponent(point, axis, solved->second.Lengths[axis][at - planes.begin()]);
+        }
+      }
+    }
+  }
+  const vtkNew<vtkDoubleArray> lengths =
+    Named<vtkDoubleArray>("BlockLengths", 3, polycube->GetNumberOfCells());
+  for (Index block = 0; block < domain.Complex.Size(); ++block)
+  {
+    lengths->SetTuple(block, LengthsOf(domain.Mesh, block).data());
+  }
+  polycube->GetPointData()->AddArray(positions);
+  polycube->GetCellData()->AddArray(lengths);
+  polycube->GetCellData()->AddArray(Copied<vtkIntArray>("Block", 1, domain.Complex.Groups));
+}
+
+//------------------------------------------------------------------------------
+void WriteBlocks(const ParameterDomain& domain, vtkPartitionedDataSetCollection* blocks)
+{
+  blocks->SetNumberOfPartitionedDataSets(static_cast<unsigned int>(domain.Complex.Size()));
+  for (Index block = 0; block < domain.Complex.Size(); ++block)
+  {
+    const std::array<int, 3>& n = domain.Mesh.Sizes[block];
+    vtkNew<vtkStructuredGrid> grid;
+    grid->SetDimensions(n[0] + 1, n[1] + 1, n[2] + 1);
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    const vtkNew<vtkDoubleArray> parameter =
+      Named<vtkDoubleArray>("Parameter", 3, (n[0] + 1) * (n[1] + 1) * (n[2] + 1));
+    for (const Index node : domain.Mesh.Nodes[block])
+    {
+      const vtkIdType id = points->InsertNextPoint(domain.Mesh.Places[node].data());
+      vtkIdType rest = id;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        parameter->SetComponent(id, axis,
+          domain.Complex.Origins[block][axis] +
+            static_cast<double>(rest % (n[axis] + 1)) / n[axis]);
+        rest /= n[axis] + 1;
+      }
+    }
+    grid->SetPoints(points);
+    grid->GetPointData()->AddArray(parameter);
+    const std::pair<const char*, int> numbers[] = { { "Segment", domain.Complex.Segments[block] },
+      { "Block", domain.Complex.Groups[block] } };
+    for (const auto& [name, number] : numbers)
+    {
+      const vtkNew<vtkIntArray> array = Named<vtkIntArray>(name, 1, grid->GetNumberOfCells());
+      array->Fill(number);
+      grid->GetCellData()->AddArray(array);
+    }
+    const unsigned int place = static_cast<unsigned int>(block);
+    blocks->SetPartition(place, 0, grid);
+    blocks->GetMetaData(place)->Set(
+      vtkCompositeDataSet::NAME(), ("Block " + std::to_string(block)).c_str());
+  }
+}
+
+//------------------------------------------------------------------------------
+void AddParameters(vtkImageData* whole, vtkImageData* image)
+{
+  const bool isWhole = std::equal(whole->GetExtent(), whole->GetExtent() + 6, image->GetExtent());
+  for (int a = 0; a < whole->GetPointData()->GetNumberOfArrays(); ++a)
+  {
+    const vtkSmartPointer<vtkDataArray> array = whole->GetPointData()->GetArray(a);
+    image->GetPointData()->AddArray(
+      isWhole ? array : Cut(array, whole->GetExtent(), image->GetExtent()));
+  }
+  for (int a = 0; a < whole->GetFieldData()->GetNumberOfArrays(); ++a)
+  {
+    image->GetFieldData()->AddArray(whole->GetFieldData()->GetAbstractArray(a));
+  }
+}
+
+//------------------------------------------------------------------------------
+void ShareParameters(
+  vtkImageData* whole, vtkImageData* image, vtkMultiProcessController* controller)
+{
+  controller->Broadcast(whole, 0);
+  AddParameters(whole, image);
+}
+}

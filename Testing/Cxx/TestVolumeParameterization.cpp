@@ -1,0 +1,324 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DomainChecks.h"
+#include "vtkFrameField.h"
+#include "vtkVolumeParameterization.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkSMPTools.h"
+#include "vtkStructuredGrid.h"
+#include "vtkUnsignedCharArray.h"
+
+using namespace trivariate_testing;
+
+namespace
+{
+struct Chain
+{
+  vtkNew<vtkImageData> Image;
+  vtkNew<vtkSegmentBoundary> Boundary;
+  vtkNew<vtkPolycubeDomain> Domain;
+  vtkNew<vtkFrameField> Field;
+  vtkNew<vtkVolumeParameterization> Parameters;
+
+  Chain(const int extent[6], const Label& label, bool layered, bool turned = false)
+  {
+    this->Image->SetExtent(const_cast<int*>(extent));
+    if (turned)
+    {
+      this->Image->SetOrigin(3.0, -2.0, 1.0);
+      this->Image->SetDirectionMatrix(0, 1, 0, 1, 0, 0, 0, 0, 1); // left-handed
+    }
+    vtkNew<vtkIntArray> labels;
+    labels->SetName("Segment");
+    for (int k = extent[4]; k <= extent[5]; ++k)
+    {
+      for (int j = extent[2]; j <= extent[3]; ++j)
+      {
+        for (int i = extent[0]; i <= extent[1]; ++i)
+        {
+          const double index[3] = { double(i), double(j), double(k) };
+          labels->InsertNextValue(label(index));
+        }
+      }
+    }
+    this->Image->GetPointData()->AddArray(labels);
+    this->Boundary->SetInputData(this->Image);
+    this->Boundary->UseDensityOff();
+    this->Domain->SetInputConnection(this->Boundary->GetOutputPort());
+    this->Domain->SetLayered(layered);
+    this->Field->SetInputData(this->Image);
+    this->Field->SetInputConnection(1, this->Domain->GetOutputPort());
+    this->Parameters->SetCellLength(1.0);
+    this->Parameters->SetInputConnection(this->Field->GetOutputPort());
+    this->Parameters->SetInputConnection(1, this->Domain->GetOutputPort(0));
+    this->Parameters->SetInputConnection(2, this->Domain->GetOutputPort(1));
+  }
+
+  vtkImageData* Update()
+  {
+    this->Parameters->Update();
+    return this->Parameters->GetOutput();
+  }
+
+  double Known(const char* name, int component = 0)
+  {
+    vtkDataArray* array = this->Parameters->GetOutput()->GetFieldData()->GetArray(name);
+    return array ? array->GetComponent(0, component) : vtkMath::Nan();
+  }
+
+  vtkStructuredGrid* Block(unsigned int block)
+  {
+    return vtkStructuredGrid::SafeDownCast(
+      this->Parameters->GetBlocks()->GetPartitionAsDataObject(block, 0));
+  }
+};
+
+// A quarter of a ring.
+int BentBar(const double* p)
+{
+  const double r = std::hypot(p[0], p[1]);
+  return r > 12.2 && r < 24.7 && p[0] > 0.5 && p[1] > 0.5 && std::abs(p[2]) < 6.4;
+}
+const int BarExtent[6] = { 0, 27, 0, 27, -9, 9 };
+
+int BallInBall(const double* p)
+{
+  const double r = vtkMath::Norm(p);
+  return r < 5.2 ? 2 : r < 10.3 ? 1 : 0;
+}
+const int BallExtent[6] = { -13, 13, -13, 13, -13, 13 };
+
+// Arrays fit each other; each voxel lies where its parameter is in the blocks; cells are sound and
+// fill the segments.
+void ExpectParameters(Chain& chain, double leastJacobian)
+{
+  vtkImageData* image = chain.Parameters->GetOutput();
+  vtkDataArray* segment = image->GetPointData()->GetArray("Segment");
+  const auto parameter = vtkDoubleArray::SafeDownCast(image->GetPointData()->GetArray("Parameter"));
+  const auto mask =
+    vtkUnsignedCharArray::SafeDownCast(image->GetPointData()->GetArray("ParameterMask"));
+  const auto block = vtkIntArray::SafeDownCast(image->GetPointData()->GetArray("Block"));
+  ASSERT_TRUE(parameter && mask && block);
+  EXPECT_EQ(chain.Known("InvertedCells", 1), 0.0);
+
+  vtkUnstructuredGrid* polycube = chain.Parameters->GetPolycube();
+  const vtkIdType blocks = polycube->GetNumberOfCells();
+  ASSERT_EQ(chain.Parameters->GetBlocks()->GetNumberOfPartitionedDataSets(), blocks);
+  double volume = 0.0;
+  for (vtkIdType b = 0; b < blocks; ++b)
+  {
+    vtkStructuredGrid* grid = chain.Block(b);
+    ASSERT_NE(grid, nullptr);
+    EXPECT_EQ(CellArray(grid, "Block")->GetComponent(0, 0),
+      CellArray(polycube, "Block")->GetComponent(b, 0));
+    vtkNew<vtkMeshQuality> quality;
+    quality->SetInputData(grid);
+    quality->SetHexQualityMeasureToScaledJacobian();
+    quality->Update();
+    EXPECT_GT(CellArray(quality->GetOutput(), "Quality")->GetRange()[0], leastJacobian) << b;
+    quality->SetHexQualityMeasureToVolume();
+    quality->Update();
+    for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+    {
+      volume += CellArray(quality->GetOutput(), "Quality")->GetComponent(cell, 0);
+    }
+  }
+
+  double voxels = 0.0, known = 0.0, farthest = 0.0;
+  for (vtkIdType id = 0; id < image->GetNumberOfPoints(); ++id)
+  {
+    EXPECT_EQ(mask->GetValue(id) != 0, block->GetValue(id) >= 0);
+    double p[3];
+    parameter->GetTypedTuple(id, p);
+    EXPECT_TRUE(std::isfinite(p[0] + p[1] + p[2]));
+    if (segment->GetComponent(id, 0) <= 0.0)
+    {
+      EXPECT_EQ(mask->GetValue(id), 0);
+      continue;
+    }
+    voxels += 1.0;
+    known += mask->GetValue(id);
+    double nearest = VTK_DOUBLE_MAX;
+    for (vtkIdType b = 0; b < blocks && mask->GetValue(id) != 0; ++b)
+    {
+      vtkStructuredGrid* grid = chain.Block(b);
+      vtkDataArray* own = grid->GetPointData()->GetArray("Parameter");
+      int n[3], cell[3];
+      grid->GetDimensions(n);
+      double at[3], x[3] = { 0.0, 0.0, 0.0 };
+      bool inside = true;
+      for (int a = 0; a < 3; ++a)
+      {
+        const double low = own->GetComponent(0, a);
+        inside = inside && p[a] >= low && p[a] <= low + 1.0;
+        cell[a] = std::clamp(int((p[a] - low) * (n[a] - 1)), 0, n[a] - 2);
+        at[a] = (p[a] - low) * (n[a] - 1) - cell[a];
+      }
+      for (int c = 0; c < 8 && inside; ++c)
+      {
+        double weight = 1.0;
+        int node[3];
+        for (int a = 0; a < 3; ++a)
+        {
+          weight *= (c >> a & 1) ? at[a] : 1.0 - at[a];
+          node[a] = cell[a] + (c >> a & 1);
+        }
+        const double* q = grid->GetPoint(node[0] + n[0] * (node[1] + n[1] * node[2]));
+        for (int a = 0; a < 3; ++a)
+        {
+          x[a] += weight * q[a];
+        }
+      }
+      if (inside)
+      {
+        nearest = std::min(nearest, vtkMath::Distance2BetweenPoints(x, image->GetPoint(id)));
+      }
+    }
+    if (mask->GetValue(id) != 0)
+    {
+      farthest = std::max(farthest, std::sqrt(nearest));
+    }
+  }
+  EXPECT_EQ(known, voxels);
+  EXPECT_LT(farthest, 1.2); // voxels along the surface, outside of the flat faces of cells
+  EXPECT_NEAR(volume / voxels, 1.0, 0.03);
+}
+}
+
+//------------------------------------------------------------------------------
+TEST(VolumeParameterization, OneGridInABentBar)
+{
+  for (const bool turned : { false, true })
+  {
+    Chain chain(BarExtent, BentBar, false, turned);
+    vtkImageData* image = chain.Update();
+    ExpectParameters(chain, 0.1);
+    EXPECT_EQ(image->GetPointData()->GetArray("Block")->GetRange()[1], 0.0);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      EXPECT_LT(chain.Known("ParameterIterations", axis), 45.0);
+      EXPECT_LT(chain.Known("ParameterResidual", axis), 1e-8);
+      EXPECT_LT(chain.Known("ParameterDeviation", axis), 0.005);
+    }
+    // The sides of the bar, and an arc between the inner and the outer one.
+    std::array<double, 3> lengths;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      lengths[axis] = chain.Known("ParameterLengths", axis);
+    }
+    std::sort(lengths.begin(), lengths.end());
+    EXPECT_NEAR(lengths[0], 12.5, 1.0);
+    EXPECT_NEAR(lengths[1], 12.8, 1.0);
+    EXPECT_GT(lengths[2], std::acos(0.0) * 13.0);
+    EXPECT_LT(lengths[2], std::acos(0.0) * 24.0);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(VolumeParameterization, LayersInABall)
+{
+  Chain chain(
+    BallExtent, [](const double* p) { return BallInBall(p) != 0; }, true);
+  chain.Update();
+  ExpectParameters(chain, 0.1);
+  EXPECT_EQ(ValuesOf(CellArray(chain.Parameters->GetPolycube(), "Block")).size(), 7U);
+}
+
+//------------------------------------------------------------------------------
+// Faces that two blocks have in common have the same points, bit by bit, of two segments too.
+TEST(VolumeParameterization, SegmentsShareTheirInterface)
+{
+  Chain chain(BallExtent, BallInBall, true);
+  chain.Update();
+  ExpectParameters(chain, 0.1);
+  std::map<Place, std::set<int>> owners;
+  const vtkIdType blocks = chain.Parameters->GetPolycube()->GetNumberOfCells();
+  vtkIdType onInterface = 0;
+  for (vtkIdType b = 0; b < blocks; ++b)
+  {
+    vtkStructuredGrid* grid = chain.Block(b);
+    for (vtkIdType id = 0; id < grid->GetNumberOfPoints(); ++id)
+    {
+      const double* p = grid->GetPoint(id);
+      owners[{ p[0], p[1], p[2] }].insert(
+        static_cast<int>(CellArray(grid, "Segment")->GetComponent(0, 0)));
+    }
+  }
+  for (const auto& [place, segments] : owners)
+  {
+    if (segments.size() == 2)
+    {
+      EXPECT_NEAR(vtkMath::Norm(place.data()), 5.0, 0.8);
+      ++onInterface;
+    }
+    else if (*segments.begin() == 2)
+    {
+      EXPECT_LT(vtkMath::Norm(place.data()), 5.4);
+    }
+    else
+    {
+      EXPECT_GT(vtkMath::Norm(place.data()), 4.6);
+    }
+  }
+  EXPECT_GT(onInterface, 50);
+}
+
+//------------------------------------------------------------------------------
+TEST(VolumeParameterization, IsTheSameOnOneThread)
+{
+  Chain chain(BarExtent, BentBar, false);
+  vtkNew<vtkImageData> threaded;
+  threaded->DeepCopy(chain.Update());
+  chain.Parameters->Modified();
+  const vtkSMPTools::Config one{ 1, "STDThread", false };
+  vtkSMPTools::LocalScope(one, [&chain]() { chain.Update(); });
+  vtkDataArray* a = threaded->GetPointData()->GetArray("Parameter");
+  vtkDataArray* b = chain.Parameters->GetOutput()->GetPointData()->GetArray("Parameter");
+  for (vtkIdType id = 0; id < a->GetNumberOfTuples(); ++id)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      ASSERT_EQ(a->GetComponent(id, c), b->GetComponent(id, c)) << id;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(VolumeParameterization, SaysWhatIsWrong)
+{
+  Chain chain(BarExtent, BentBar, false);
+  ErrorLog log(chain.Parameters);
+  const auto expect = [&](const std::string& text)
+  {
+    chain.Parameters->Modified();
+    chain.Parameters->Update();
+    const std::string error = log.TakeOnly();
+    EXPECT_NE(error.find(text), std::string::npos) << error << "\nis not\n" << text;
+    EXPECT_EQ(chain.Parameters->GetPolycube()->GetNumberOfCells(), 0) << text;
+  };
+  chain.Parameters->SetInputData(chain.Image);
+  expect("does not have the point array FrameU");
+
+  chain.Parameters->SetInputConnection(chain.Field->GetOutputPort());
+  vtkNew<vtkUnstructuredGrid> nothing;
+  chain.Parameters->SetInputData(2, nothing);
+  expect("There are no patches, or no polycube");
+
+  chain.Parameters->SetInputConnection(2, chain.Domain->GetOutputPort(1));
+  chain.Field->Update();
+  vtkNew<vtkImageData> elsewhere;
+  elsewhere->DeepCopy(chain.Field->GetOutput());
+  elsewhere->SetOrigin(100.0, 0.0, 0.0);
+  chain.Parameters->SetInputData(elsewhere);
+  expect("it is not the surface of this segment");
+
+  vtkNew<vtkImageData> still;
+  still->DeepCopy(chain.Field->GetOutput());
+  still->GetPointData()->GetArray("FrameV")->Fill(0.0);
+  chain.Parameters->SetInputData(still);
+  expect("The frame of voxel");
+}
