@@ -276,9 +276,10 @@ DomainSet FindDomains(const LabelledSurface& surface, const std::vector<int>& se
   SegmentContacts contacts =
     ShareContacts(surface, solids, settings.Options, execution.Part(0.5, 0.6));
   nest.Set.Shared = std::move(contacts.Shared); // surfaces are numbered as solids
-  for (SolidSegment& solid : solids)
+  for (std::size_t i = 0; i < solids.size(); ++i)
   {
-    nest.AddSolid(std::move(solid), execution.Part(0.6, 0.7));
+    const double step = 0.1 / double(solids.size());
+    nest.AddSolid(std::move(solids[i]), execution.Part(0.6 + step * i, 0.6 + step * (i + 1)));
   }
   std::stable_sort(others.begin(), others.end(),
     [](const SegmentPieces& a, const SegmentPieces& b) { return a.Volume() < b.Volume(); });
