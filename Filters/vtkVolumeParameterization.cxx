@@ -31,7 +31,7 @@ vtkCxxSetObjectMacro(vtkVolumeParameterization, Controller, vtkMultiProcessContr
 
 namespace
 {
-constexpr double BytesPerVoxel = 180.0; // image and box around a segment together
+constexpr double BytesPerVoxel = 240.0; // image and box around a segment together
 }
 
 //------------------------------------------------------------------------------
