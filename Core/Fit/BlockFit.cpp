@@ -3,6 +3,7 @@
 #include "BlockFit.h"
 
 #include "BlockFitInput.h"
+#include "FitSteps.h"
 #include "RefinementMarks.h"
 #include "ScatteredSystem.h"
 #include "ShapeInverse.h"
@@ -10,7 +11,6 @@
 #include "TSpline/Evaluator.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -19,12 +19,7 @@ namespace trivariate
 {
 namespace
 {
-// As in the gridded fit.
-constexpr double RoundTolerance = 1e-2;
-constexpr int RoundIterations = 20;
-constexpr double FinalTolerance = 1e-4;
 constexpr int FinalIterations = 400;
-constexpr double RmsFloor = 1e-11;
 
 // Stiffness of cells that fold, multiplied by four for each further attempt.
 constexpr float FirstStiffness = 1e-4f;
@@ -91,12 +86,11 @@ public:
     {
       this->Result.BlockOf.push_back(this->Layout.BlockOf(f));
     }
+    this->Result.Seconds = this->Time.Seconds;
     return std::move(this->Result);
   }
 
 private:
-  using Clock = std::chrono::steady_clock;
-
   // Control points grow by a constant factor a round, so their logarithm tells the way done.
   double Progress() const
   {
@@ -108,19 +102,7 @@ private:
       0.05 + 0.9 * std::log(size / root) / std::log(std::max(2.0, most / root)), 0.0, 0.99);
   }
 
-  void Lap(const char* topic)
-  {
-    const auto now = Clock::now();
-    auto& seconds = this->Result.Seconds;
-    auto entry = std::find_if(
-      seconds.begin(), seconds.end(), [topic](const auto& e) { return e.first == topic; });
-    if (entry == seconds.end())
-    {
-      entry = seconds.insert(seconds.end(), { topic, 0.0 });
-    }
-    entry->second += std::chrono::duration<double>(now - this->LastLap).count();
-    this->LastLap = now;
-  }
+  void Lap(const char* topic) { this->Time.Lap(topic); }
 
   void FitShape()
   {
@@ -222,7 +204,7 @@ private:
       round.Rms = std::max(round.Rms, error.Rms / stage.Scales[c]);
       round.MaximumError = std::max(round.MaximumError, error.Maximum / stage.Scales[c]);
     }
-    round.Seconds = std::chrono::duration<double>(Clock::now() - this->Start).count();
+    round.Seconds = this->Time.Total();
     this->Result.Rounds.push_back(round);
     this->Run.Check(0.0);
   }
@@ -375,7 +357,7 @@ private:
   ShapeSamples Shape;
   const BlockFitOptions& Options;
   Execution Run;
-  Clock::time_point Start = Clock::now(), LastLap = Start;
+  FitClock Time;
   BlockFitResult Result;
   BlockSpline Layout;
   RefinementMarks Marks;

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Fit.h"
 
+#include "FitSteps.h"
 #include "GridFitSystem.h"
-#include "TSpline/LinearIndependence.h"
 #include "RefinementMarks.h"
+#include "TSpline/LinearIndependence.h"
 #include "TSpline/RefinementRule.h"
 #include "UniformFit.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -18,19 +18,11 @@ namespace trivariate
 {
 namespace
 {
-// Between refinements the system is only solved as far as the next refinement can tell; the last
-// solve goes on until the error stands still (measured on the volumes in Documentation/Results.md).
-constexpr double RoundTolerance = 1e-2;
-constexpr int RoundIterations = 20;
-constexpr double FinalTolerance = 1e-4;
 constexpr int FinalIterations = 40;
 // Functions at the edge of a mask have few voxels to tell them apart: on noise 40 iterations end up
 // to 3 % above the least-squares error, 400 up to 1 %, for about a seventh more of the fit's time.
 constexpr int FinalIterationsUnderMask = 400;
 
-// The smallest root mean square, as a share of the range, that rounding lets the fit tell from
-// zero.
-constexpr double RmsFloor = 1e-11;
 // Below this share the sum of squares from moments has lost its digits to cancellation.
 constexpr double RmsFromMoments = 1e-6;
 
@@ -156,7 +148,7 @@ public:
     {
       this->SolveTensorProduct();
       this->Measure(true);
-      return std::move(this->Result);
+      return this->TakeResult();
     }
     this->SolveRoot();
     while (true)
@@ -184,17 +176,16 @@ public:
       if (!isGood || this->IsGoodEnough())
       {
         this->DropEmptyFunctions();
-        return std::move(this->Result);
+        return this->TakeResult();
       }
     }
   }
 
 private:
-  using Clock = std::chrono::steady_clock;
-
-  static double SecondsBetween(Clock::time_point a, Clock::time_point b)
+  FitResult TakeResult()
   {
-    return std::chrono::duration<double>(b - a).count();
+    this->Result.Seconds = this->Time.Seconds;
+    return std::move(this->Result);
   }
 
   // Control points grow by a constant factor a round, so their logarithm tells the way done.
@@ -207,19 +198,7 @@ private:
       0.0, 0.99);
   }
 
-  void Lap(const char* topic)
-  {
-    const auto now = Clock::now();
-    auto& seconds = this->Result.Seconds;
-    auto entry = std::find_if(
-      seconds.begin(), seconds.end(), [topic](const auto& e) { return e.first == topic; });
-    if (entry == seconds.end())
-    {
-      entry = seconds.insert(seconds.end(), { topic, 0.0 });
-    }
-    entry->second += SecondsBetween(this->LastLap, now);
-    this->LastLap = now;
-  }
+  void Lap(const char* topic) { this->Time.Lap(topic); }
 
   // The homogeneous coefficients w_i p_i of one attribute.
   std::vector<double> Coefficients(int c) const
@@ -339,7 +318,7 @@ private:
       }
     }
     this->Lap("evaluate");
-    round.Seconds = SecondsBetween(this->Start, this->LastLap);
+    round.Seconds = this->Time.Total();
     this->Result.Rounds.push_back(round);
     this->Run.Check(0.0);
   }
@@ -378,7 +357,7 @@ private:
   const GridSamples& Samples;
   const FitOptions& Options;
   Execution Run;
-  Clock::time_point Start = Clock::now(), LastLap = Start;
+  FitClock Time;
   FitResult Result;
   Axes Grid;
   GridFitSystem System;
