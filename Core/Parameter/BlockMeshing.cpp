@@ -39,12 +39,33 @@ Sizes Halved(Sizes sizes)
 }
 
 //------------------------------------------------------------------------------
+Sizes SizesOf(const BlockDomain& domain, const BlockMeshOptions& options)
+{
+  if (options.CellsPerBlock > 0)
+  {
+    const int n = options.CellsPerBlock;
+    return Sizes(domain.Blocks.size(), { n, n, n });
+  }
+  return BlockSizes(
+    domain.Blocks, [&domain](Index a, Index b) { return domain.EdgeLength(a, b); },
+    options.CellLength, options.FewestCells);
+}
+
+double CountCells(const Sizes& sizes)
+{
+  double cells = 0.0;
+  for (const std::array<int, 3>& n : sizes)
+  {
+    cells += double(n[0]) * n[1] * n[2];
+  }
+  return cells;
+}
+
+//------------------------------------------------------------------------------
 BlockMesh MakeBlockMesh(const BlockDomain& domain, const BlockMeshOptions& options,
   const Execution& execution, BlockMeshReport* report)
 {
-  std::vector<Sizes> levels{ BlockSizes(
-    domain.Blocks, [&domain](Index a, Index b) { return domain.EdgeLength(a, b); },
-    options.CellLength, options.FewestCells) };
+  std::vector<Sizes> levels{ SizesOf(domain, options) };
   while (Longest(levels.back()) > CoarsestCells)
   {
     levels.push_back(Halved(levels.back()));
@@ -59,7 +80,7 @@ BlockMesh MakeBlockMesh(const BlockDomain& domain, const BlockMeshOptions& optio
     sliding.SendHome(mesh.Places);
     // Each level is about eight times the work of the one before.
     const double end = std::pow(0.125, level);
-    Repair(mesh, sliding, CellTargets(start), options.Repair,
+    Repair(mesh, sliding, CellTargets(mesh), options.Repair,
       execution.Part(0.1 + 0.9 * end / 8.0, 0.1 + 0.9 * end));
     if (report && level == 0)
     {
@@ -68,5 +89,26 @@ BlockMesh MakeBlockMesh(const BlockDomain& domain, const BlockMeshOptions& optio
     }
   }
   return mesh;
+}
+
+//------------------------------------------------------------------------------
+BlockMesh RefineBlockMesh(const BlockDomain& domain, const BlockMesh& mesh,
+  const BlockMeshOptions& options, const Execution& execution, BlockMeshReport* report)
+{
+  BlockMesh refined = Resampled(mesh, domain.Blocks, SizesOf(domain, options));
+  const SlidingNodes onSurface(domain, refined);
+  for (std::size_t node = 0; node < refined.Places.size(); ++node)
+  {
+    refined.Places[node] = onSurface.Allowed(static_cast<Index>(node), refined.Places[node]);
+  }
+  const CellQuality before = QualityOf(refined, execution);
+  RepairOptions repair = options.Repair;
+  repair.MostSmoothing = before.Inverted > 0 ? repair.MostSmoothing : 0;
+  Repair(refined, SlidingNodes(domain, refined), CellTargets(refined), repair, execution);
+  if (report)
+  {
+    *report = { before, QualityOf(refined, execution) };
+  }
+  return refined;
 }
 }

@@ -12,6 +12,7 @@ struct BlockMeshOptions
 {
   double CellLength = 0.0; ///< wanted, in space
   int FewestCells = 2;     ///< along an edge of a block
+  int CellsPerBlock = 0;   ///< along each edge, whatever its length; 0: CellLength decides
   RepairOptions Repair;
 };
 
@@ -21,12 +22,21 @@ struct BlockMeshReport
   CellQuality End;
 };
 
+/// Cells of each block.
+std::vector<std::array<int, 3>> SizesOf(const BlockDomain& domain, const BlockMeshOptions& options);
+
+double CountCells(const std::vector<std::array<int, 3>>& sizes);
+
 /**
  * Interpolated (BlockStart.h) at a coarse resolution, repaired, refined to twice as many cells
  * along each edge and repaired again, until cells are as long as wanted.
  */
 BlockMesh MakeBlockMesh(const BlockDomain& domain, const BlockMeshOptions& options,
   const Execution& execution, BlockMeshReport* report = nullptr);
+
+/// A mesh of the domain at another resolution; untangled where new nodes on the surface fold cells.
+BlockMesh RefineBlockMesh(const BlockDomain& domain, const BlockMesh& mesh,
+  const BlockMeshOptions& options, const Execution& execution, BlockMeshReport* report = nullptr);
 }
 
 #endif

@@ -22,13 +22,16 @@ using Eigen::Vector3d;
 constexpr int MostHalvings = 8;
 constexpr double LongestStep = 1.0; // in wanted lengths
 constexpr double Sharp = 1e-8;      // the regularisation where nothing is inverted
-constexpr int WholeSweeps = 10;     // before only nodes near inverted cells move
+constexpr double Flat = 0.01;       // a determinant so small is treated as if it were inverted
+constexpr int WholeSweeps = 20;     // before only nodes near inverted cells move,
+constexpr int WholeEvery = 4;       // but for some sweeps
 constexpr int Rings = 3;            // of cells around those
 
-// By the least determinant: large enough that the energy pulls inverted cells out.
+// By the least determinant around a node: where cells are inverted large enough that the energy
+// pulls them out. It is each node's own, so that one hopeless cell does not blunt it everywhere.
 double Regularisation(double least)
 {
-  return std::sqrt(1e-6 + 0.04 * least * least);
+  return least > Flat ? Sharp : std::sqrt(1e-6 + 0.04 * std::pow(std::min(least, 0.0), 2));
 }
 
 class Sweeper
@@ -36,10 +39,10 @@ class Sweeper
 public:
   Sweeper(BlockMesh& mesh, const SlidingNodes& sliding, const std::vector<Vector3d>& targets,
     double homing)
-    : Mesh(mesh)
+    : Homing(homing)
+    , Mesh(mesh)
     , Sliding(sliding)
     , Targets(targets)
-    , Homing(homing)
     , Cells(mesh)
     , Active(mesh.Places.size(), 1)
     , Determinants(this->Cells.Cells.size())
@@ -47,7 +50,7 @@ public:
   }
 
   /// One move of each active node.
-  void Sweep(double epsilon, const Execution& execution);
+  void Sweep(const Execution& execution);
 
   /// Only nodes in some rings around cells that are inverted; or all of them.
   void Activate(bool all);
@@ -57,14 +60,15 @@ public:
 
   double Energy(double epsilon, const Execution& execution) const;
 
+  double Homing;
+
 private:
   void Terms(Index node, std::vector<CornerTerm>& terms) const;
-  void Move(Index node, double epsilon, std::vector<CornerTerm>& terms);
+  void Move(Index node, std::vector<CornerTerm>& terms);
 
   BlockMesh& Mesh;
   const SlidingNodes& Sliding;
   const std::vector<Vector3d>& Targets;
-  double Homing;
   BlockCells Cells;
   std::vector<char> Active;
   std::vector<double> Determinants; // the least of each cell, of its target
@@ -87,7 +91,7 @@ void Sweeper::Terms(Index node, std::vector<CornerTerm>& terms) const
   }
 }
 
-void Sweeper::Move(Index node, double epsilon, std::vector<CornerTerm>& terms)
+void Sweeper::Move(Index node, std::vector<CornerTerm>& terms)
 {
   const SlidingNodes::Kind kind = this->Sliding.KindOf(node);
   if (kind == SlidingNodes::Fixed)
@@ -95,6 +99,12 @@ void Sweeper::Move(Index node, double epsilon, std::vector<CornerTerm>& terms)
     return;
   }
   this->Terms(node, terms);
+  double least = 1.0;
+  for (const CornerTerm& term : terms)
+  {
+    least = std::min(least, term.Determinant);
+  }
+  const double epsilon = Regularisation(least);
   double energy = 0.0;
   Vector3d gradient = Vector3d::Zero();
   Matrix3d hessian = Matrix3d::Zero();
@@ -127,9 +137,9 @@ void Sweeper::Move(Index node, double epsilon, std::vector<CornerTerm>& terms)
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(reduced);
   const Eigen::VectorXd slope = eigen.eigenvectors().transpose() * (free.transpose() * gradient);
   const Eigen::VectorXd curve = eigen.eigenvalues().cwiseAbs();
-  const double least = 1e-9 * curve.maxCoeff();
-  step =
-    -free * (eigen.eigenvectors() * slope.cwiseQuotient(curve.cwiseMax(std::max(least, 1e-300))));
+  const double flattest = 1e-9 * curve.maxCoeff();
+  step = -free *
+         (eigen.eigenvectors() * slope.cwiseQuotient(curve.cwiseMax(std::max(flattest, 1e-300))));
   const double longest = LongestStep * lengths.maxCoeff();
   const double length = step.norm();
   if (!(length > 0.0) || !std::isfinite(length))
@@ -157,7 +167,7 @@ void Sweeper::Move(Index node, double epsilon, std::vector<CornerTerm>& terms)
   }
 }
 
-void Sweeper::Sweep(double epsilon, const Execution& execution)
+void Sweeper::Sweep(const Execution& execution)
 {
   for (const std::vector<Index>& nodes : this->Cells.Colours)
   {
@@ -169,7 +179,7 @@ void Sweeper::Sweep(double epsilon, const Execution& execution)
         {
           if (this->Active[nodes[i]])
           {
-            this->Move(nodes[i], epsilon, terms);
+            this->Move(nodes[i], terms);
           }
         }
       });
@@ -287,17 +297,21 @@ void Repair(BlockMesh& mesh, const SlidingNodes& sliding, const std::vector<Vect
   for (int sweep = 0; sweep < options.MostUntangling && least <= 0.0; ++sweep)
   {
     execution.Check(sweep / all);
-    sweeper.Activate(sweep < WholeSweeps);
-    sweeper.Sweep(Regularisation(least), execution);
+    // Where folds stay, the nodes around them may go far from home.
+    const bool late = sweep > options.MostUntangling / 3;
+    sweeper.Homing = late ? 0.0 : options.Homing;
+    sweeper.Activate(sweep < WholeSweeps || (!late && sweep % WholeEvery == 0));
+    sweeper.Sweep(execution);
     least = sweeper.LeastDeterminant(execution);
   }
+  sweeper.Homing = options.Homing;
   sweeper.Activate(true);
-  const double epsilon = least > 0.0 ? Sharp : Regularisation(least);
+  const double epsilon = Regularisation(least);
   double energy = sweeper.Energy(epsilon, execution);
   for (int sweep = 0; sweep < options.MostSmoothing; ++sweep)
   {
     execution.Check((options.MostUntangling + sweep) / all);
-    sweeper.Sweep(epsilon, execution);
+    sweeper.Sweep(execution);
     const double after = sweeper.Energy(epsilon, execution);
     if (after > (1.0 - options.Settled) * energy)
     {

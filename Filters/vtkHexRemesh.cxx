@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkHexRemesh.h"
+
+#include "BlockMeshOutput.h"
+#include "DomainInput.h"
+#include "Parameter/BlockMeshing.h"
+#include "SMPExecution.h"
+
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+using namespace trivariate;
+
+vtkStandardNewMacro(vtkHexRemesh);
+
+//------------------------------------------------------------------------------
+vtkHexRemesh::vtkHexRemesh()
+{
+  this->SetNumberOfInputPorts(4);
+  this->SetNumberOfOutputPorts(2);
+}
+
+vtkUnstructuredGrid* vtkHexRemesh::GetHexahedra()
+{
+  return vtkUnstructuredGrid::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+//------------------------------------------------------------------------------
+int vtkHexRemesh::FillInputPortInformation(int port, vtkInformation* info)
+{
+  const char* const types[4] = { "vtkImageData", "vtkPolyData", "vtkUnstructuredGrid",
+    "vtkPartitionedDataSetCollection" };
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), types[port]);
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port == 3);
+  return 1;
+}
+
+int vtkHexRemesh::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(),
+    port == 0 ? "vtkPartitionedDataSetCollection" : "vtkUnstructuredGrid");
+  return 1;
+}
+
+// The first piece is all, from all of the inputs.
+int vtkHexRemesh::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  for (int port = 0; port < 4; ++port)
+  {
+    for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      vtkInformation* info = inputVector[port]->GetInformationObject(i);
+      info->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+      info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+      info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+      if (info->Has(Pipeline::WHOLE_EXTENT()))
+      {
+        int extent[6];
+        info->Get(Pipeline::WHOLE_EXTENT(), extent);
+        info->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
+      }
+    }
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkHexRemesh::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (outputVector->GetInformationObject(0)->Get(
+        vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
+  {
+    return 1;
+  }
+  try
+  {
+    this->Remesh(inputVector, outputVector);
+  }
+  catch (const Aborted&)
+  {
+    return 1; // the executive empties the outputs
+  }
+  catch (const std::bad_alloc&)
+  {
+    vtkErrorMacro("Out of memory; choose a larger EdgeLength.");
+    return 0;
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkHexRemesh::Remesh(vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkImageData* image = vtkImageData::GetData(inputVector[0]);
+  auto* given = vtkPartitionedDataSetCollection::GetData(inputVector[3]);
+  const DomainInput input =
+    ReadDomain(vtkPolyData::GetData(inputVector[1]), vtkUnstructuredGrid::GetData(inputVector[2]));
+  const BlockDomain& domain = input.Domain;
+  if (domain.Blocks.empty())
+  {
+    throw std::invalid_argument("The polycube is empty.");
+  }
+
+  const double* spacing = image->GetSpacing();
+  BlockMeshOptions options;
+  options.CellLength = this->EdgeLength > 0.0
+                         ? this->EdgeLength
+                         : 2.0 * std::min({ spacing[0], spacing[1], spacing[2] });
+  options.CellsPerBlock = this->CellsPerBlock;
+  const double cells = CountCells(SizesOf(domain, options));
+  if (cells > static_cast<double>(this->MostCells))
+  {
+    throw std::invalid_argument("The mesh would have " + std::to_string(cells) +
+                                " cells, more than MostCells; choose a larger EdgeLength.");
+  }
+  const Execution execution = SMPExecution(this, 0.0, 0.95);
+  BlockMeshReport report;
+  const BlockMesh mesh = given ? RefineBlockMesh(domain, ReadBlockMesh(given, domain.Blocks),
+                                   options, execution, &report)
+                               : MakeBlockMesh(domain, options, execution, &report);
+  this->InvertedBefore = report.Start.Inverted;
+  this->InvertedCells = report.End.Inverted;
+  this->LeastScaledJacobian = report.End.LeastJacobian;
+  this->MeanScaledJacobian = report.End.MeanJacobian;
+  if (report.End.Inverted > 0)
+  {
+    vtkWarningMacro(
+      << report.End.Inverted << " of " << report.End.Cells
+      << " cells are inverted. Features thinner than four voxels, or corners that do "
+         "not fit the shape, cause this; try a smaller EdgeLength, more cubes or other "
+         "corners.");
+  }
+
+  vtkNew<vtkPointData> attributes;
+  SampleImage(image, mesh.Places, attributes);
+  const BlockLabels labels{ domain.Segments, input.Groups };
+  WriteBlockMesh(
+    mesh, labels, attributes, vtkPartitionedDataSetCollection::GetData(outputVector, 0));
+  WriteHexahedra(mesh, labels, attributes, vtkUnstructuredGrid::GetData(outputVector, 1));
+}
+
+//------------------------------------------------------------------------------
+void vtkHexRemesh::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "EdgeLength: " << this->EdgeLength << "\n";
+  os << indent << "CellsPerBlock: " << this->CellsPerBlock << "\n";
+  os << indent << "MostCells: " << this->MostCells << "\n";
+  os << indent << "InvertedBefore: " << this->InvertedBefore << "\n";
+  os << indent << "InvertedCells: " << this->InvertedCells << "\n";
+  os << indent << "LeastScaledJacobian: " << this->LeastScaledJacobian << "\n";
+  os << indent << "MeanScaledJacobian: " << this->MeanScaledJacobian << "\n";
+}

@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DomainChecks.h"
+#include "vtkHexRemesh.h"
+
+#include "vtkCellLocator.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkStructuredGrid.h"
+
+namespace
+{
+using namespace trivariate_testing;
+
+// An image around the origin with the array "linear".
+vtkNew<vtkImageData> LinearImage()
+{
+  vtkNew<vtkImageData> image;
+  image->SetExtent(-12, 12, -12, 12, -12, 12);
+  vtkNew<vtkDoubleArray> linear;
+  linear->SetName("linear");
+  linear->SetNumberOfComponents(2);
+  vtkNew<vtkIntArray> segment;
+  segment->SetName("Segment");
+  for (vtkIdType id = 0; id < image->GetNumberOfPoints(); ++id)
+  {
+    const double* p = image->GetPoint(id);
+    linear->InsertNextTuple2(p[0] + 2.0 * p[1], p[2]);
+    segment->InsertNextValue(1);
+  }
+  image->GetPointData()->AddArray(linear);
+  image->GetPointData()->AddArray(segment);
+  return image;
+}
+
+struct Remeshed
+{
+  explicit Remeshed(vtkPolyData* surface, bool layered = true)
+  {
+    this->Domain->SetInputData(surface);
+    this->Domain->SetLayered(layered);
+    this->Filter->SetInputDataObject(0, LinearImage());
+    this->Filter->SetInputConnection(1, this->Domain->GetOutputPort(0));
+    this->Filter->SetInputConnection(2, this->Domain->GetOutputPort(1));
+  }
+
+  vtkStructuredGrid* Grid(unsigned int block)
+  {
+    return vtkStructuredGrid::SafeDownCast(this->Blocks()->GetPartition(block, 0));
+  }
+
+  vtkPartitionedDataSetCollection* Blocks()
+  {
+    return vtkPartitionedDataSetCollection::SafeDownCast(this->Filter->GetOutputDataObject(0));
+  }
+
+  vtkNew<vtkPolycubeDomain> Domain;
+  vtkNew<vtkHexRemesh> Filter;
+};
+
+double VolumeOfCells(vtkUnstructuredGrid* grid, int segment)
+{
+  double volume = 0.0;
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+  {
+    if (CellArray(grid, "Segment")->GetComponent(cell, 0) == segment)
+    {
+      volume += vtkMeshQuality::HexVolume(grid->GetCell(cell));
+    }
+  }
+  return volume;
+}
+}
+
+TEST(HexRemesh, FillsABall)
+{
+  const vtkNew<vtkPolyData> surface = Ball();
+  Remeshed mesh(surface);
+  mesh.Filter->SetEdgeLength(1.0);
+  mesh.Filter->Update();
+  vtkUnstructuredGrid* hexes = mesh.Filter->GetHexahedra();
+  ASSERT_EQ(mesh.Blocks()->GetNumberOfPartitionedDataSets(), 7u);
+  EXPECT_EQ(mesh.Filter->GetInvertedCells(), 0);
+  EXPECT_GT(mesh.Filter->GetLeastScaledJacobian(), 0.3);
+  EXPECT_GT(mesh.Filter->GetMeanScaledJacobian(), 0.9);
+  EXPECT_NEAR(LeastJacobian(hexes), mesh.Filter->GetLeastScaledJacobian(), 1e-6);
+  EXPECT_NEAR(VolumeOfCells(hexes, 1), VolumeOf(surface, 1), 0.02 * VolumeOf(surface, 1)); // chords
+
+  // One number, one place, and the values of the image there.
+  std::map<vtkIdType, Place> placeOf;
+  vtkIdType cells = 0;
+  for (unsigned int b = 0; b < 7; ++b)
+  {
+    vtkStructuredGrid* grid = mesh.Grid(b);
+    ASSERT_NE(grid, nullptr);
+    cells += grid->GetNumberOfCells();
+    EXPECT_EQ(ValuesOf(CellArray(grid, "Segment")), std::set<int>{ 1 });
+    EXPECT_EQ(ValuesOf(CellArray(grid, "Block")), std::set<int>{ int(b) });
+    vtkDataArray* linear = grid->GetPointData()->GetArray("linear");
+    ASSERT_NE(linear, nullptr);
+    EXPECT_EQ(grid->GetPointData()->GetArray("Segment"), nullptr);
+    for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+    {
+      Place x;
+      grid->GetPoint(p, x.data());
+      const auto node =
+        static_cast<vtkIdType>(grid->GetPointData()->GetArray("Node")->GetComponent(p, 0));
+      EXPECT_EQ(placeOf.emplace(node, x).first->second, x);
+      EXPECT_NEAR(linear->GetComponent(p, 0), x[0] + 2.0 * x[1], 1e-9);
+      EXPECT_NEAR(linear->GetComponent(p, 1), x[2], 1e-9);
+    }
+  }
+  EXPECT_EQ(cells, hexes->GetNumberOfCells());
+  EXPECT_EQ(static_cast<vtkIdType>(placeOf.size()), hexes->GetNumberOfPoints());
+}
+
+TEST(HexRemesh, SharesTheNodesBetweenSegments)
+{
+  const vtkNew<vtkPolyData> surface = SurfaceOf(11,
+    [](const double* p) { return vtkMath::Norm(p) < 4.5   ? 2
+                                 : vtkMath::Norm(p) < 9.5 ? 1
+                                                          : 0; });
+  Remeshed mesh(surface);
+  mesh.Filter->SetEdgeLength(1.0);
+  mesh.Filter->Update();
+  vtkUnstructuredGrid* hexes = mesh.Filter->GetHexahedra();
+  EXPECT_EQ(mesh.Filter->GetInvertedCells(), 0);
+  EXPECT_EQ(ValuesOf(CellArray(hexes, "Segment")), (std::set<int>{ 1, 2 }));
+  for (const int segment : { 1, 2 })
+  {
+    const double volume = VolumeOf(surface, segment);
+    EXPECT_NEAR(VolumeOfCells(hexes, segment), volume, 0.03 * volume); // chords
+  }
+  // Each inner face has two cells: the boundary of all is only that of the outer surface.
+  std::set<vtkIdType> inner, outer;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType cell = 0; cell < hexes->GetNumberOfCells(); ++cell)
+  {
+    hexes->GetCellPoints(cell, ids);
+    const bool isInner = CellArray(hexes, "Segment")->GetComponent(cell, 0) == 2;
+    for (vtkIdType i = 0; i < 8; ++i)
+    {
+      (isInner ? inner : outer).insert(ids->GetId(i));
+    }
+  }
+  int shared = 0;
+  for (const vtkIdType node : inner)
+  {
+    shared += outer.count(node) > 0;
+    if (outer.count(node))
+    {
+      EXPECT_NEAR(vtkMath::Norm(hexes->GetPoint(node)), 4.5, 0.8);
+    }
+  }
+  EXPECT_GT(shared, 100);
+}
+
+TEST(HexRemesh, ResamplesGivenMeshes)
+{
+  const vtkNew<vtkPolyData> surface = Ball();
+  Remeshed coarse(surface);
+  coarse.Filter->SetEdgeLength(2.0);
+  coarse.Filter->Update();
+  Remeshed fine(surface);
+  fine.Filter->SetInputConnection(3, coarse.Filter->GetOutputPort(0));
+  fine.Filter->SetCellsPerBlock(6);
+  fine.Filter->Update();
+  EXPECT_EQ(fine.Filter->GetHexahedra()->GetNumberOfCells(), 7 * 216);
+  EXPECT_EQ(fine.Filter->GetInvertedCells(), 0);
+  vtkNew<vtkCellLocator> locator;
+  locator->SetDataSet(fine.Domain->GetPatches());
+  locator->BuildLocator();
+  // The ends of the first layer's grid on its patch are on the surface.
+  for (unsigned int b = 1; b < 7; ++b)
+  {
+    vtkStructuredGrid* grid = fine.Grid(b);
+    int near = 0;
+    for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+    {
+      double x[3], nearest[3], square;
+      vtkIdType cell;
+      int sub;
+      grid->GetPoint(p, x);
+      locator->FindClosestPoint(x, nearest, cell, sub, square);
+      near += square < 1e-12;
+    }
+    EXPECT_EQ(near, 49);
+  }
+}
+
+TEST(HexRemesh, SaysWhatIsWrong)
+{
+  const vtkNew<vtkPolyData> surface = Ball();
+  {
+    Remeshed mesh(surface);
+    ErrorLog errors(mesh.Filter);
+    mesh.Filter->SetMostCells(10);
+    mesh.Filter->Update();
+    EXPECT_NE(errors.TakeOnly().find("choose a larger EdgeLength"), std::string::npos);
+  }
+  {
+    Remeshed mesh(surface);
+    ErrorLog errors(mesh.Filter);
+    vtkNew<vtkUnstructuredGrid> empty;
+    mesh.Filter->SetInputDataObject(2, empty);
+    mesh.Filter->Update();
+    EXPECT_NE(errors.TakeOnly().find("come from Polycube Domain"), std::string::npos);
+  }
+  {
+    Remeshed mesh(surface);
+    ErrorLog errors(mesh.Filter);
+    vtkNew<vtkPartitionedDataSetCollection> none;
+    mesh.Filter->SetInputDataObject(3, none);
+    mesh.Filter->Update();
+    EXPECT_NE(errors.TakeOnly().find("0 block meshes for 7 blocks"), std::string::npos);
+  }
+}
