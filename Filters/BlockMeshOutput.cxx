@@ -161,47 +161,40 @@ BlockMesh ReadBlockMesh(
                                 std::to_string(input->GetNumberOfPartitionedDataSets()) +
                                 " block meshes for " + std::to_string(blocks.size()) + " blocks.");
   }
-  BlockMesh mesh;
+  std::vector<vtkStructuredGrid*> grids;
+  std::vector<std::array<int, 3>> sizes;
+  Index points = 0;
   for (std::size_t b = 0; b < blocks.size(); ++b)
   {
-    auto* const grid =
-      vtkStructuredGrid::SafeDownCast(input->GetPartition(static_cast<unsigned int>(b), 0));
-    vtkDataArray* const node = grid ? grid->GetPointData()->GetArray("Node") : nullptr;
-    if (!node || grid->GetNumberOfPoints() == 0)
+    grids.push_back(
+      vtkStructuredGrid::SafeDownCast(input->GetPartition(static_cast<unsigned int>(b), 0)));
+    if (!grids.back())
     {
-      throw refuse(b, "it is no structured grid with the point array Node");
+      throw refuse(b, "it is no structured grid");
     }
-    std::array<int, 3> size;
-    grid->GetDimensions(size.data());
+    std::array<int, 3>& size = sizes.emplace_back();
+    grids.back()->GetDimensions(size.data());
     std::for_each(size.begin(), size.end(), [](int& n) { --n; });
     if (*std::min_element(size.begin(), size.end()) < 1)
     {
       throw refuse(b, "it has no cells");
     }
-    mesh.Sizes.push_back(size);
-    std::vector<Index>& nodes = mesh.Nodes.emplace_back();
-    for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+    points = std::max(points, *std::max_element(blocks[b].begin(), blocks[b].end()) + 1);
+  }
+  BlockMesh mesh = NumberNodes(blocks, points, sizes);
+  std::vector<char> placed(mesh.Places.size(), 0);
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+  {
+    for (std::size_t p = 0; p < mesh.Nodes[b].size(); ++p)
     {
-      const Index number = static_cast<Index>(node->GetComponent(p, 0));
-      if (number < 0)
+      const Index node = mesh.Nodes[b][p];
+      const Eigen::Vector3d place(grids[b]->GetPoint(static_cast<vtkIdType>(p)));
+      if (placed[node] && place != mesh.Places[node])
       {
-        throw refuse(b, "a Node is negative");
+        throw refuse(b, "a node that it shares with another block is elsewhere");
       }
-      nodes.push_back(number);
-      if (number >= static_cast<Index>(mesh.Places.size()))
-      {
-        mesh.Places.resize(number + 1, Eigen::Vector3d::Zero());
-      }
-      grid->GetPoint(p, mesh.Places[number].data());
-    }
-    for (int corner = 0; corner < 8; ++corner)
-    {
-      if (mesh.Node(static_cast<Index>(b), EndOfCorner(corner, 0) * size[0],
-            EndOfCorner(corner, 1) * size[1],
-            EndOfCorner(corner, 2) * size[2]) != blocks[b][corner])
-      {
-        throw refuse(b, "its corners are other points");
-      }
+      placed[node] = 1;
+      mesh.Places[node] = place;
     }
   }
   return mesh;

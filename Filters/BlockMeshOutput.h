@@ -32,8 +32,8 @@ void WriteHexahedra(const BlockMesh& mesh, const BlockLabels& labels, vtkPointDa
   vtkUnstructuredGrid* output);
 
 /**
- * A mesh for these blocks, as WriteBlockMesh wrote it. Throws std::invalid_argument with a sentence
- * for the user where it is none.
+ * A mesh for these blocks: a structured grid for each, in their order. Throws std::invalid_argument
+ * with a sentence for the user where it is none.
  */
 BlockMesh ReadBlockMesh(
   vtkPartitionedDataSetCollection* input, const std::vector<BlockPoints>& blocks);
