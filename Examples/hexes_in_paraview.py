@@ -28,6 +28,6 @@ SaveData("hexmesh.vtu", proxy=mesh, DataMode="Binary")
 
 assert hexes.GetProperty("InvertedCells").GetElement(0) == 0
 assert mesh.CellData["ScaledJacobian"].GetRange()[0] > 0.2
-assert mesh.PointData["density"].GetRange()[0] > 5.0
+assert mesh.PointData["density"].GetRange()[0] > 4.0
 assert OutputPort(hexes, 0).GetDataInformation().GetNumberOfCells() == \
     mesh.GetDataInformation().GetNumberOfCells()
