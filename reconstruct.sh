@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # ./reconstruct.sh [VOLUME] [--output DIR] [--array NAME] [--tolerance T] [--control-points N]
-#                  [--segments K] [--domain box|auto]
+#                  [--segments K] [--domain box|segments|auto]
 #
 # Turns a volume image into a T-spline and writes to DIR what came out of it: model.tspline,
 # resampled.vti, hexes.vtu, bezier.vtu, picture.png and report.json. The first call on Debian 12
@@ -17,8 +17,10 @@
 #                       it seems to have), and write segments.vti, boundary.vtp and segments.png;
 #                       and, of segments for which there is a domain of cubes, patches.vtp and
 #                       domain.vtu
-#   --domain box|auto   box, the default: one spline over the whole image; auto: a spline for each of
-#                       the K materials, together still one T-spline that stands for every voxel
+#   --domain WHICH      box, the default: one spline over the whole image; segments: a spline for each
+#                       of the K materials over its bounding box, together still one T-spline that
+#                       stands for every voxel; auto: over the cubes of its domain where that is
+#                       more accurate
 set -euo pipefail
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 export BUILD_DIR=${BUILD_DIR:-$source_dir/build}
@@ -49,7 +51,7 @@ number='^([0-9]+([.][0-9]*)?|[.][0-9]+)([eE][-+]?[0-9]+)?$'
   fail "--control-points is a whole number from 64 to 999999999, not '$control_points'"
 [ -z "$segments" ] || { [[ $segments =~ ^[0-9]{1,2}$ ]] && ((10#$segments <= 64)); } ||
   fail "--segments is a whole number from 0 to 64, not '$segments'"
-[ -z "$domain" ] || [[ $domain =~ ^(box|auto)$ ]] || fail "--domain is box or auto, not '$domain'"
+[ -z "$domain" ] || [[ $domain =~ ^(box|segments|auto)$ ]] || fail "--domain is box, segments or auto, not '$domain'"
 [ -z "$volume" ] || [ -f "$volume" ] || fail "there is no file '$volume'"
 [ -z "$volume" ] || [ -r "$volume" ] || fail "the file '$volume' cannot be read"
 mkdir -p -- "$output" 2>/dev/null || fail "the folder '$output' cannot be made"

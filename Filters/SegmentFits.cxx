@@ -3,6 +3,7 @@
 #include "SegmentFits.h"
 
 #include "ChainStep.h"
+#include "DomainFit.h"
 #include "Fit/PointShares.h"
 #include "SMPExecution.h"
 #include "TSplineGrid.h"
@@ -23,6 +24,7 @@
 #include <array>
 #include <map>
 #include <numeric>
+#include <stdexcept>
 
 namespace trivariate
 {
@@ -31,6 +33,8 @@ namespace
 constexpr const char* MaskName = "vtkSegmentMask";
 constexpr int FewestControlPoints = 64;
 constexpr double ShareOfShares = 0.02; // of the progress: to look what each segment needs
+constexpr double ShareOfBox = 0.2;     // of a segment's progress: the fit over its box
+constexpr double MostMissed = 0.02;    // of a segment's voxels by a spline over a domain
 
 using Extent = std::array<int, 6>;
 
@@ -144,6 +148,79 @@ vtkSmartPointer<vtkImageData> Crop(vtkImageData* image, const Part& part, std::i
 }
 
 //------------------------------------------------------------------------------
+FittedPart FitOverBox(vtkImageData* image, const Part& part, std::int32_t number,
+  const std::vector<std::int32_t>& partOf, const SegmentFitOptions& options, vtkAlgorithm* chain,
+  double from, double to)
+{
+  vtkNew<vtkTSplineFit> fit;
+  fit->SetController(nullptr);
+  fit->SetInputData(Crop(image, part, number, partOf, options));
+  fit->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, options.Array.c_str());
+  fit->SetMaskArray(MaskName);
+  for (const std::string& name : options.Further)
+  {
+    fit->AddAttribute(name.c_str());
+  }
+  fit->SetRMSTolerance(options.RmsTolerance);
+  fit->SetMaximumNumberOfControlPoints(options.MaximumControlPoints);
+  ChainStep(fit, chain, from, to).Run();
+  FittedPart fitted;
+  fitted.Model = TSplineFromGrid(fit->GetOutput());
+  fitted.Model.Segment.assign(fitted.Model.Spline.Size(), part.Label);
+  fitted.Rounds = vtkTable::SafeDownCast(fit->GetOutputDataObject(1));
+  return fitted;
+}
+
+//------------------------------------------------------------------------------
+// Puts a fit over a domain in place of that over the box if it is better; otherwise says why not.
+// Voxels that it misses go to part 0.
+std::string TryDomain(vtkImageData* image, const Part& part, std::int32_t number,
+  const SegmentFitOptions& options, vtkAlgorithm* chain, double from, double to,
+  std::vector<std::int32_t>& partOf, FittedPart& fitted)
+{
+  std::vector<vtkIdType> voxels;
+  for (std::size_t voxel = 0; voxel < partOf.size(); ++voxel)
+  {
+    if (partOf[voxel] == number)
+    {
+      voxels.push_back(static_cast<vtkIdType>(voxel));
+    }
+  }
+  FittedPart aligned;
+  const double middle = from + 0.9 * (to - from);
+  try
+  {
+    aligned = FitOverDomain(image, part.Label, options, chain, from, middle);
+  }
+  catch (const std::runtime_error& reason)
+  {
+    return reason.what();
+  }
+  const PartErrors box =
+    MeasurePart(image, options.Array, fitted.Model, voxels, chain, middle, middle);
+  const PartErrors errors =
+    MeasurePart(image, options.Array, aligned.Model, voxels, chain, middle, to);
+  const double all = static_cast<double>(voxels.size());
+  const double missed = static_cast<double>(errors.Missed.size());
+  if (missed > MostMissed * all)
+  {
+    return "the spline over its cubes misses " + std::to_string(errors.Missed.size()) + " of " +
+           std::to_string(voxels.size()) + " voxels.";
+  }
+  if (errors.Squares / (all - missed) >= box.Squares / all)
+  {
+    return "with as many control points that is more accurate than its cubes.";
+  }
+  for (const vtkIdType voxel : errors.Missed)
+  {
+    partOf[voxel] = 0;
+  }
+  fitted = std::move(aligned);
+  return "";
+}
+
+//------------------------------------------------------------------------------
 void AddRounds(vtkTable* rounds, std::int32_t segment, vtkTable* all)
 {
   const char* names[] = { "Segment", "ControlPoints", "RMS", "MaximumError", "Seconds" };
@@ -178,7 +255,7 @@ void AddRounds(vtkTable* rounds, std::int32_t segment, vtkTable* all)
 
 //------------------------------------------------------------------------------
 TSplineModel FitSegments(vtkImageData* image, const SegmentFitOptions& options, vtkTable* rounds,
-  vtkAlgorithm* chain, double from, double to)
+  std::vector<std::string>& why, vtkAlgorithm* chain, double from, double to)
 {
   vtkDataArray* values = image->GetPointData()->GetArray(options.Array.c_str());
   std::vector<std::int32_t> partOf;
@@ -202,46 +279,56 @@ TSplineModel FitSegments(vtkImageData* image, const SegmentFitOptions& options, 
     high = std::max(high, part.High);
   }
 
+  // Those with a small share first, the lowest label last: it gets the voxels that others miss.
   std::vector<std::size_t> order(parts.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
   std::stable_sort(order.begin(), order.end(),
-    [&shares](std::size_t a, std::size_t b) { return shares[a] < shares[b]; });
+    [&shares](std::size_t a, std::size_t b)
+    { return a == 0 || b == 0 ? b == 0 && a != 0 : shares[a] < shares[b]; });
   double left = options.MaximumControlPoints, open = 1.0, done = 0.0;
-  std::vector<TSplineModel> models(parts.size());
-  std::vector<vtkSmartPointer<vtkTable>> tables(parts.size());
+  auto waiting = static_cast<double>(parts.size());
+  std::vector<FittedPart> fitted(parts.size());
   for (const std::size_t p : order)
   {
-    const Part& part = parts[p];
-    vtkNew<vtkTSplineFit> fit;
-    fit->SetController(nullptr);
-    fit->SetInputData(Crop(image, part, static_cast<std::int32_t>(p), partOf, options));
-    fit->SetInputArrayToProcess(
-      0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, options.Array.c_str());
-    fit->SetMaskArray(MaskName);
-    for (const std::string& name : options.Further)
+    const auto number = static_cast<std::int32_t>(p);
+    SegmentFitOptions own = options;
+    // As many as its share, but those after it must have some.
+    --waiting;
+    const double most = left - FewestControlPoints * waiting;
+    const double wanted = open > 0.0 ? std::min(most, left * shares[p] / open) : most;
+    own.MaximumControlPoints = std::max(FewestControlPoints, static_cast<int>(wanted));
+    const double range = parts[p].High - parts[p].Low;
+    own.RmsTolerance =
+      range > 0.0 ? std::min(100.0, options.RmsTolerance * (high - low) / range) : 0.0;
+    const bool tries = options.OverDomains && p > 0;
+    const double begin = from + ShareOfShares + (to - from - ShareOfShares) * done;
+    const double end = begin + (to - from - ShareOfShares) * shares[p];
+    const double middle = tries ? begin + ShareOfBox * (end - begin) : end;
+    fitted[p] = FitOverBox(image, parts[p], number, partOf, own, chain, begin, middle);
+    if (tries)
     {
-      fit->AddAttribute(name.c_str());
+      const std::string reason =
+        TryDomain(image, parts[p], number, own, chain, middle, end, partOf, fitted[p]);
+      if (!reason.empty())
+      {
+        why.push_back("Segment " + std::to_string(parts[p].Label) +
+                      " is fitted over its bounding box: " + reason);
+      }
     }
-    const double own = part.High - part.Low;
-    fit->SetRMSTolerance(
-      own > 0.0 ? std::min(100.0, options.RmsTolerance * (high - low) / own) : 0.0);
-    const double wanted = open > 0.0 ? left * shares[p] / open : left;
-    fit->SetMaximumNumberOfControlPoints(std::max(FewestControlPoints, static_cast<int>(wanted)));
-    const double begin = from + ShareOfShares, width = to - begin;
-    ChainStep step(fit, chain, begin + width * done, begin + width * (done + shares[p]));
-    step.Run();
     done += shares[p];
-    models[p] = TSplineFromGrid(fit->GetOutput());
-    models[p].Segment.assign(models[p].Spline.Size(), part.Label);
-    tables[p] = vtkTable::SafeDownCast(fit->GetOutputDataObject(1));
-    left -= static_cast<double>(models[p].Spline.Size());
+    left -= static_cast<double>(fitted[p].Model.Spline.Size());
     open -= shares[p];
   }
   TSplineModel whole;
   for (std::size_t p = 0; p < parts.size(); ++p)
   {
-    whole = JoinParts(whole, models[p]);
-    AddRounds(tables[p], parts[p].Label, rounds);
+    whole = JoinParts(whole, fitted[p].Model);
+    AddRounds(fitted[p].Rounds, parts[p].Label, rounds);
+  }
+  vtkDataArray* labels = image->GetPointData()->GetArray("Segment");
+  for (vtkIdType voxel = 0; options.OverDomains && voxel < image->GetNumberOfPoints(); ++voxel)
+  {
+    labels->SetTuple1(voxel, parts[partOf[voxel]].Label);
   }
   return whole;
 }

@@ -23,17 +23,22 @@ struct SegmentFitOptions
   std::vector<std::string> Further; ///< and those beside it
   int MaximumControlPoints = 0;     ///< of all segments together
   double RmsTolerance = 0.0;        ///< percent of the array's range over the whole image; 0: none
+  bool OverDomains = false;         ///< whether domains of cubes are tried
 };
 
 /**
  * Fits the voxels of each label in the point array Segment over the label's bounding box, the
- * others masked. Control points are shared out by PointShares; what a segment leaves when it meets
- * the tolerance goes to those after it, of which the one with the largest share is the last. The
- * rounds of all fits go to the table, with a column Segment. Progress, abort and messages are those
- * of `chain`, from `from` to `to`. Throws as ChainStep does.
+ * others masked; and, if wanted, all but the lowest label also over a domain of cubes with as many
+ * control points. The better one by the round trip is kept, and `why` says for each label why it is
+ * the box. Voxels that the spline over a domain misses get the lowest label.
+ *
+ * Control points are shared out by PointShares; what a segment leaves when it meets the tolerance
+ * goes to those after it, those with small shares first. The rounds of all fits go to the table,
+ * with a column Segment. Progress, abort and messages are those of `chain`, from `from` to `to`.
+ * Throws as ChainStep does.
  */
 TSplineModel FitSegments(vtkImageData* image, const SegmentFitOptions& options, vtkTable* rounds,
-  vtkAlgorithm* chain, double from, double to);
+  std::vector<std::string>& why, vtkAlgorithm* chain, double from, double to);
 }
 
 #endif

@@ -46,7 +46,7 @@ enum Outputs
 {
   TSPLINE,
   ROUNDS,
-  SEGMENTS,
+  SEGMENTED,
   SURFACES,
   PATCHES,
   POLYCUBES
@@ -260,6 +260,7 @@ void vtkTSplineReconstruction::FitParts(
   options.Further = this->Attributes;
   options.MaximumControlPoints = this->MaximumNumberOfControlPoints;
   options.RmsTolerance = this->RMSTolerance;
+  options.OverDomains = this->Domain == AUTOMATIC;
 
   vtkNew<vtkImageData> segments;
   segments->ShallowCopy(image);
@@ -291,9 +292,14 @@ void vtkTSplineReconstruction::FitParts(
   {
     this->LayOut(segments, outputVector);
   }
-  vtkImageData::GetData(outputVector, SEGMENTS)->ShallowCopy(segments);
-  const TSplineModel model =
-    FitSegments(segments, options, vtkTable::GetData(outputVector, ROUNDS), this, LaidOut, 1.0);
+  vtkImageData::GetData(outputVector, SEGMENTED)->ShallowCopy(segments);
+  std::vector<std::string> why;
+  const TSplineModel model = FitSegments(
+    segments, options, vtkTable::GetData(outputVector, ROUNDS), why, this, LaidOut, 1.0);
+  for (const std::string& reason : why)
+  {
+    vtkWarningMacro(<< reason);
+  }
   TSplineToGrid(model, vtkUnstructuredGrid::GetData(outputVector, TSPLINE));
 }
 
@@ -311,7 +317,7 @@ int vtkTSplineReconstruction::RequestData(
   }
   const char* name = this->GetInputArrayInformation(1)->Get(vtkDataObject::FIELD_NAME());
   const std::string labelName = name ? name : "";
-  const bool labelled = this->Domain == AUTOMATIC && !labelName.empty() && labelName != "None";
+  const bool labelled = this->Domain != BOX && !labelName.empty() && labelName != "None";
   std::vector<vtkSmartPointer<vtkDataArray>> arrays;
   std::array<int, 6> extent;
   input->GetExtent(extent.data());

@@ -241,7 +241,7 @@ def main():
     parser.add_argument("--tolerance", type=float)
     parser.add_argument("--control-points", type=int)
     parser.add_argument("--segments", type=int)
-    parser.add_argument("--domain", choices=["box", "auto"], default="box")
+    parser.add_argument("--domain", choices=["box", "segments", "auto"], default="box")
     options = parser.parse_args()
     if options.tolerance is None:
         options.tolerance = 0.0 if options.control_points else 0.1
@@ -261,12 +261,13 @@ def main():
     segments = Segments()
     fit = simple.TSplineReconstruction(
         Input=source, Scalars=["POINTS", name], NumberOfSegments=options.segments or 0,
-        Domain="Automatic" if options.domain == "auto" else "Box", RMSTolerance=options.tolerance,
+        Domain={"box": "Box", "segments": "Segments", "auto": "Automatic"}[options.domain],
+        RMSTolerance=options.tolerance,
         MaximumNumberOfControlPoints=options.control_points or 50000)
     step("fit", run, fit, "the fit")
     step("write", save, path("model.tspline"), fit)
     model = step("read_back", read_back, path("model.tspline"))
-    if options.domain == "auto":
+    if options.domain != "box":
         segments.take(fit)
     elif options.segments is not None:
         step("segment", segments.split, source, name, options.segments)

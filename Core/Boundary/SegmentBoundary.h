@@ -43,7 +43,7 @@ struct SegmentBoundary
 };
 
 /**
- * Memory: about 500 bytes a face of a voxel between two labels, nothing that grows with the number
+ * Memory: about 600 bytes a face of a voxel between two labels, nothing that grows with the number
  * of voxels.
  */
 SegmentBoundary ComputeSegmentBoundary(

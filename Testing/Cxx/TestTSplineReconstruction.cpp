@@ -191,6 +191,35 @@ TEST(TSplineReconstruction, FindsSegmentsSurfacesAndDomains)
 }
 
 //------------------------------------------------------------------------------
+// Over its cubes or over its box: whichever is better stands for every voxel, and is told of.
+TEST(TSplineReconstruction, TakesTheBetterOfCubesAndBox)
+{
+  const auto run = [](int domain)
+  {
+    auto reconstruction = Reconstruct(Phantom());
+    reconstruction->SetDomain(domain);
+    reconstruction->SetRMSTolerance(0.0);
+    vtkNew<vtkReconstructionReport> report;
+    report->SetInputConnection(0, reconstruction->GetOutputPort(2));
+    report->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
+    report->SetTSplineConnection(reconstruction->GetOutputPort());
+    report->Update();
+    vtkNew<vtkTable> table;
+    table->DeepCopy(report->GetOutput());
+    return table;
+  };
+  const vtkNew<vtkTable> boxes = run(vtkTSplineReconstruction::SEGMENTS);
+  const vtkNew<vtkTable> best = run(vtkTSplineReconstruction::AUTOMATIC);
+  ASSERT_EQ(best->GetNumberOfRows(), 3);
+  for (vtkIdType row = 0; row < 3; ++row)
+  {
+    EXPECT_EQ(best->GetValueByName(row, "FoundPercent").ToDouble(), 100.0);
+  }
+  EXPECT_LE(best->GetValueByName(1, "RoundTripRMSPercent").ToDouble(),
+    1.0001 * boxes->GetValueByName(1, "RoundTripRMSPercent").ToDouble());
+}
+
+//------------------------------------------------------------------------------
 TEST(TSplineReconstruction, OverTheBoxIsTheFit)
 {
   const auto image = Phantom();
@@ -244,7 +273,7 @@ TEST(TSplineReconstruction, StopsInEveryStepAndRunsAgain)
           reconstruction->Update();
           EXPECT_EQ(reconstruction->GetOutput()->GetNumberOfPoints(), 0) << at;
           EXPECT_EQ(Output<vtkPolyData>(reconstruction, 3)->GetNumberOfCells(), 0) << at;
-          EXPECT_LT(where, at + 0.15);
+          EXPECT_LT(where, at + 0.3);
           reconstruction->RemoveObserver(tag);
           reconstruction->SetAbortExecute(0);
         }

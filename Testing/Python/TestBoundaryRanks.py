@@ -1,33 +1,12 @@
 # SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Surfaces under 1, 2 and 3 ranks: the same, and a warning that the pieces are gathered."""
-import pathlib
-import subprocess
-import sys
+from Ranks import alone, same, says
 
-import numpy
-
-pvbatch, mpiexec = sys.argv[1:3]
-script = pathlib.Path(__file__).with_name("BoundaryUnderRanks.py")
-
-
-def run(ranks):
-    file = f"ranks{ranks}.npz"
-    command = [mpiexec, "--oversubscribe", "-n", str(ranks), pvbatch, str(script), file]
-    done = subprocess.run(command, capture_output=True, text=True)
-    output = done.stdout + done.stderr
-    assert done.returncode == 0, output
-    assert output.count("no segment 9") == 1, output
-    return dict(numpy.load(file)), output
-
-
-reference, output = run(1)
-assert "Warning" not in output and "WARN|" not in output, output
+reference, output = alone("BoundaryUnderRanks.py")
+fault = says("no segment 9", 1)
+fault(output)
 assert {tuple(pair) for pair in reference["BoundaryLabels"]} == {(1, 0), (1, 2), (1, -1), (2, -1)}
-for ranks in (2, 3):
-    result, output = run(ranks)
-    assert output.count("gathered to process 0") == 2, output  # of two updates
-    assert result.keys() == reference.keys()
-    for name, array in reference.items():
-        assert numpy.array_equal(array, result[name]), f"{name} differs under {ranks} ranks"
+same(reference, "BoundaryUnderRanks.py",
+     lambda output: (fault(output), says("gathered to process 0", 2)(output)))  # of two updates
 print(len(reference["Points"]), "points under 1, 2, 3 ranks")

@@ -112,7 +112,7 @@ def test_results():
 
 def test_segments():
     """A spline for each segment; the image is written back from them."""
-    done = run("--output", "parts", "--control-points", "1200", "--domain", "auto",
+    done = run("--output", "parts", "--control-points", "1200", "--domain", "segments",
                "--segments", "2")
     assert done.returncode == 0, done.stdout + done.stderr
     with open("parts/report.json", encoding="utf-8") as file:
@@ -140,7 +140,7 @@ def test_faults():
             ("--tolerance is a percentage", "--tolerance", "small"),
             ("--control-points is a whole number", "--control-points", "63"),
             ("--segments is a whole number", "--segments", "65"),
-            ("--domain is box or auto", "--domain", "ball"),
+            ("--domain is box, segments or auto", "--domain", "ball"),
             ("one volume at a time", "a.vti", "b.vti"),
             ("there is no file", "absent.vti"),
             ("cannot be made", "--output", "file/below"),

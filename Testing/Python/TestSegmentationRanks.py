@@ -1,22 +1,13 @@
 # SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 # SPDX-License-Identifier: BSD-3-Clause
 """The segmentation under 1, 2 and 3 ranks: every point has the same label and attributes."""
-import pathlib
-import subprocess
-import sys
-
 import numpy
 
-pvbatch, mpiexec = sys.argv[1:3]
-script = pathlib.Path(__file__).with_name("SegmentationUnderRanks.py")
+import Ranks
 
 
 def run(ranks):
-    command = [mpiexec, "--oversubscribe", "-n", str(ranks), pvbatch, "--symmetric", str(script),
-               f"of{ranks}"]
-    done = subprocess.run(command, capture_output=True, text=True)
-    output = done.stdout + done.stderr
-    assert done.returncode == 0, output
+    output = Ranks.run("SegmentationUnderRanks.py", ranks, f"of{ranks}", "--symmetric")
     assert output.count("choose a smaller radius") == 1, output
     assert output.count('no texture attribute "Roughness"') == 1, output
     return [dict(numpy.load(f"of{ranks}-{rank}.npz")) for rank in range(ranks)]

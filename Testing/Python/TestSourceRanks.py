@@ -2,23 +2,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Orbital and T-spline source under 1, 2 and 3 ranks: the same bytes. What is made where the spline
 is lies on rank 0, values at points and the orbital on the rank that has the points."""
-import pathlib
-import subprocess
-import sys
-
 import numpy
 
-pvbatch, mpiexec = sys.argv[1:3]
-script = pathlib.Path(__file__).with_name("SourceUnderRanks.py")
+import Ranks
+
 SPREAD = ["Points", "Orbital"]
 GATHERED = ["Image", "Linear Hexahedra", "Bezier Hexahedra", "Iso-Parametric Surfaces", "T-Mesh"]
 
 
 def run(ranks):
-    command = [mpiexec, "--oversubscribe", "-n", str(ranks), pvbatch, "--symmetric", str(script),
-               f"ranks{ranks}"]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=200)
-    assert done.returncode == 0, done.stdout + done.stderr
+    Ranks.run("SourceUnderRanks.py", ranks, f"ranks{ranks}", "--symmetric")
     return {name: [dict(numpy.load(f"ranks{ranks}-{name}-{rank}.npz")) for rank in range(ranks)]
             for name in GATHERED + SPREAD}
 
