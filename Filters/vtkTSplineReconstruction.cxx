@@ -3,8 +3,6 @@
 #include "vtkTSplineReconstruction.h"
 
 #include "ChainStep.h"
-#include "GatherSamples.h"
-#include "ImageSamples.h"
 #include "SMPExecution.h"
 #include "SegmentFits.h"
 #include "SharedPieces.h"
@@ -17,12 +15,10 @@
 
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
-#include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
-#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -38,7 +34,6 @@
 using namespace trivariate;
 
 vtkStandardNewMacro(vtkTSplineReconstruction);
-vtkCxxSetObjectMacro(vtkTSplineReconstruction, Controller, vtkMultiProcessController);
 
 namespace
 {
@@ -56,8 +51,7 @@ enum Outputs
 constexpr double Segmented = 0.3, Whole = 0.35, Bounded = 0.4, LaidOut = 0.5;
 
 //------------------------------------------------------------------------------
-// The image with copies or none of its arrays: `values` if it was gathered, or else the arrays
-// themselves. The label array gets the name Segment.
+// The image with these arrays only; that of labels, the last one, gets the name Segment.
 vtkSmartPointer<vtkImageData> MakeImage(vtkImageData* like, const int* extent,
   const std::vector<vtkSmartPointer<vtkDataArray>>& arrays, bool labelled)
 {
@@ -80,30 +74,6 @@ vtkSmartPointer<vtkImageData> MakeImage(vtkImageData* like, const int* extent,
   image->GetPointData()->SetActiveScalars(arrays.front()->GetName());
   return image;
 }
-
-// The gathered blocks as arrays of doubles again.
-std::vector<vtkSmartPointer<vtkDataArray>> ToArrays(const ImageSamples& samples)
-{
-  std::vector<vtkSmartPointer<vtkDataArray>> arrays;
-  const Index count = samples.Count();
-  const double* block = samples.Values.data();
-  for (const TSplineAttribute& attribute : samples.Attributes)
-  {
-    vtkNew<vtkDoubleArray> array;
-    array->SetName(attribute.Name.c_str());
-    array->SetNumberOfComponents(attribute.Components);
-    array->SetNumberOfTuples(count);
-    for (int c = 0; c < attribute.Components; ++c, block += count)
-    {
-      for (Index i = 0; i < count; ++i)
-      {
-        array->SetComponent(i, c, block[i]);
-      }
-    }
-    arrays.emplace_back(array);
-  }
-  return arrays;
-}
 }
 
 //------------------------------------------------------------------------------
@@ -113,13 +83,9 @@ vtkTSplineReconstruction::vtkTSplineReconstruction()
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
   this->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "None");
-  this->SetController(vtkMultiProcessController::GetGlobalController());
 }
 
-vtkTSplineReconstruction::~vtkTSplineReconstruction()
-{
-  this->SetController(nullptr);
-}
+vtkTSplineReconstruction::~vtkTSplineReconstruction() = default;
 
 //------------------------------------------------------------------------------
 void vtkTSplineReconstruction::AddAttribute(const char* name)
@@ -162,14 +128,9 @@ int vtkTSplineReconstruction::FillOutputPortInformation(int port, vtkInformation
 
 //------------------------------------------------------------------------------
 int vtkTSplineReconstruction::RequestUpdateExtent(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  vtkInformation* inInfo = inputVector[0]->GetInformationObject(0);
-  inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-  if (!ArePiecesShared(this->Controller, outputVector))
-  {
-    RequestWholeImage(inInfo);
-  }
+  RequestWholeImage(inputVector[0]->GetInformationObject(0));
   return 1;
 }
 
@@ -308,10 +269,9 @@ int vtkTSplineReconstruction::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkImageData* input = vtkImageData::GetData(inputVector[0]);
-  const bool gathering = ArePiecesShared(this->Controller, outputVector);
   const int piece = outputVector->GetInformationObject(0)->Get(
     vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
-  if (!gathering && piece > 0)
+  if (piece > 0)
   {
     return 1; // the first piece is all
   }
@@ -322,7 +282,6 @@ int vtkTSplineReconstruction::RequestData(
   std::array<int, 6> extent;
   input->GetExtent(extent.data());
   std::string fault;
-  ImageSamples samples;
   try
   {
     if (input->GetNumberOfPoints() > 0)
@@ -338,7 +297,6 @@ int vtkTSplineReconstruction::RequestData(
         }
       }
       arrays.assign(chosen.begin(), chosen.end());
-      samples = gathering ? ReadArrays(input, chosen) : ImageSamples();
     }
   }
   catch (const std::exception& error)
@@ -347,27 +305,6 @@ int vtkTSplineReconstruction::RequestData(
   }
   try
   {
-    if (gathering)
-    {
-      const bool sound = GatherSamples(samples, fault, this->Controller);
-      if (sound && this->Controller->GetLocalProcessId() > 0)
-      {
-        return 1;
-      }
-      if (sound)
-      {
-        vtkWarningMacro("The reconstruction is made on one process: the pieces of "
-                        << this->Controller->GetNumberOfProcesses()
-                        << " processes were gathered to process 0.");
-        arrays = ToArrays(samples);
-        extent = samples.Extent;
-        samples = ImageSamples();
-      }
-      else if (fault.empty())
-      {
-        return 0; // another process tells
-      }
-    }
     if (!fault.empty())
     {
       throw std::invalid_argument(fault);
@@ -417,5 +354,5 @@ void vtkTSplineReconstruction::PrintSelf(ostream& os, vtkIndent indent)
   {
     os << " " << name;
   }
-  os << "\n" << indent << "Controller: " << this->Controller << "\n";
+  os << "\n";
 }

@@ -36,8 +36,8 @@
  * result does not depend on the number of threads.
  *
  * @par Distributed data
- * Under several processes the pieces are gathered to process 0 with a warning; it gives the same
- * result as one process would, the others give empty outputs.
+ * Every process asks for the whole image; process 0 makes the result, the one that one process
+ * would make, the others give empty outputs.
  *
  * @par Errors
  * What the first step that cannot go on says: an image without points or the chosen array, one
@@ -57,7 +57,6 @@
 
 class vtkDataArray;
 class vtkImageData;
-class vtkMultiProcessController;
 
 class VTKTRIVARIATEFILTERS_EXPORT vtkTSplineReconstruction : public vtkUnstructuredGridAlgorithm
 {
@@ -126,14 +125,6 @@ public:
   const char* GetAttribute(int i) const;
   ///@}
 
-  ///@{
-  /**
-   * Processes that share distributed data. Default is the global controller.
-   */
-  void SetController(vtkMultiProcessController* controller);
-  vtkMultiProcessController* GetController() const { return this->Controller; }
-  ///@}
-
 protected:
   vtkTSplineReconstruction();
   ~vtkTSplineReconstruction() override;
@@ -160,7 +151,6 @@ private:
   int MaximumNumberOfControlPoints = 50000;
   double RMSTolerance = 0.1;
   std::vector<std::string> Attributes;
-  vtkMultiProcessController* Controller = nullptr;
 };
 
 #endif
