@@ -15,8 +15,8 @@
 #   --control-points N  stop before there are more than N control points; default is 50000
 #   --segments K        also split the volume into K materials by texture and density (0: as many as
 #                       it seems to have), and write segments.vti, boundary.vtp and segments.png;
-#                       and, of segments for which there is a domain of cubes, patches.vtp and
-#                       domain.vtu
+#                       and, of segments for which there is a domain of cubes, patches.vtp,
+#                       domain.vtu, and in a box fields.vti and hexmesh.vtu
 #   --domain WHICH      box, the default: one spline over the whole image; segments: a spline for each
 #                       of the K materials over its bounding box, together still one T-spline that
 #                       stands for every voxel; auto: over the cubes of its domain where that is
@@ -51,7 +51,8 @@ number='^([0-9]+([.][0-9]*)?|[.][0-9]+)([eE][-+]?[0-9]+)?$'
   fail "--control-points is a whole number from 64 to 999999999, not '$control_points'"
 [ -z "$segments" ] || { [[ $segments =~ ^[0-9]{1,2}$ ]] && ((10#$segments <= 64)); } ||
   fail "--segments is a whole number from 0 to 64, not '$segments'"
-[ -z "$domain" ] || [[ $domain =~ ^(box|segments|auto)$ ]] || fail "--domain is box, segments or auto, not '$domain'"
+[ -z "$domain" ] || [[ $domain =~ ^(box|segments|auto)$ ]] ||
+  fail "--domain is box, segments or auto, not '$domain'"
 [ -z "$volume" ] || [ -f "$volume" ] || fail "there is no file '$volume'"
 [ -z "$volume" ] || [ -r "$volume" ] || fail "the file '$volume' cannot be read"
 mkdir -p -- "$output" 2>/dev/null || fail "the folder '$output' cannot be made"

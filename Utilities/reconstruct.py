@@ -148,7 +148,7 @@ def evaluate(path, model, output_type, **settings):
 
 class Segments:
     """What the steps beside the fit make of the volume: each an output of a filter, or None."""
-    labelled = surfaces = patches = polycubes = None
+    labelled = surfaces = whole = patches = polycubes = fields = hexahedra = None
 
     def split(self, source, name, count):
         """Splits the volume into materials, as many as wanted; 0 chooses their number."""
@@ -161,12 +161,27 @@ class Segments:
 
     def lay_out(self):
         """Cuts surfaces into patches and finds the cubes that are the segments' domains."""
-        whole = simple.SegmentTopology(Input=self.labelled)
-        layout = simple.PolycubeDomain(Input=simple.SegmentBoundary(Input=whole))
+        self.whole = simple.SegmentTopology(Input=self.labelled)
+        layout = simple.PolycubeDomain(Input=simple.SegmentBoundary(Input=self.whole))
         report_progress(layout)
         listen(layout)
         layout.UpdatePipeline()
         self.take_domains(layout, 0, 1)
+
+    def align(self):
+        """Finds frames that follow the patches."""
+        self.fields = run(simple.FrameField(Input=self.whole, Patches=self.patches), "the frames")
+
+    def fill(self):
+        """Fills the segments with hexahedra, in the domains' blocks."""
+        hexahedra = simple.HexRemesh(
+            Input=self.whole, Patches=self.patches, Polycube=self.polycubes)
+        report_progress(hexahedra)
+        listen(hexahedra)
+        hexahedra.UpdatePipeline()
+        mesh = simple.OutputPort(hexahedra, 1)
+        if output_of(mesh).GetNumberOfCells() > 0:
+            self.hexahedra = mesh
 
     def take_domains(self, layout, patches, polycubes):
         cubes = simple.OutputPort(layout, polycubes)
@@ -182,7 +197,8 @@ class Segments:
 
     def save(self, path):
         for name, output in (("segments.vti", self.labelled), ("boundary.vtp", self.surfaces),
-                             ("patches.vtp", self.patches), ("domain.vtu", self.polycubes)):
+                             ("patches.vtp", self.patches), ("domain.vtu", self.polycubes),
+                             ("fields.vti", self.fields), ("hexmesh.vtu", self.hexahedra)):
             if output is not None:
                 save(path(name), output, DataMode="Binary", CompressorType="ZLib")
 
@@ -253,7 +269,7 @@ def main():
         return os.path.join(options.output, name)
 
     for old in ("report.json", "segments.vti", "boundary.vtp", "patches.vtp", "domain.vtu",
-                "segments.png"):
+                "fields.vti", "hexmesh.vtu", "segments.png"):
         if os.path.exists(path(old)):
             os.remove(path(old))  # the first stands for all results; the others may not come anew
     source = step("read", read, options.volume)
@@ -273,6 +289,9 @@ def main():
         step("segment", segments.split, source, name, options.segments)
         step("boundary", segments.bound)
         step("domain", segments.lay_out)
+        if segments.patches:
+            step("frames", segments.align)
+            step("hexahedra_of_segments", segments.fill)
     resampled = step("resample", lambda: evaluate(path("resampled.vti"), model, "Image",
                                                   Points=segments.labelled or source))
     hexes = step("hexahedra", lambda: evaluate(path("hexes.vtu"), model, "Linear Hexahedra"))

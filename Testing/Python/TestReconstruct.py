@@ -104,6 +104,12 @@ def test_results():
         lengths = numpy.linalg.norm(vtk_to_numpy(fields.GetArray("Frame" + axis)), axis=1)
         assert numpy.allclose(lengths, inside, atol=1e-6)
 
+    # And hexahedra, none of them inverted.
+    hexmesh = read(vtkXMLUnstructuredGridReader(), "hexmesh.vtu")
+    assert hexmesh.GetCellType(0) == VTK_HEXAHEDRON
+    assert set(vtk_to_numpy(hexmesh.GetCellData().GetArray("Segment"))) == {1}
+    assert hexmesh.GetCellData().GetArray("ScaledJacobian").GetRange()[0] > 0.0
+
     picture = vtk_to_numpy(read(vtkPNGReader(), "picture.png").GetPointData().GetScalars())
     assert len(picture) == 1600 * 800
     dark = (picture.reshape(800, 1600, -1)[:, :, :3].min(axis=2) < 240)
