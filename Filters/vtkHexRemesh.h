@@ -29,8 +29,8 @@
  * ScaledJacobian and the arrays of the image, ready for a solver.
  *
  * @par Cost
- * Some 30 microseconds for each node and sweep; 1e5 cells take a minute or two where the domain
- * fits its segment. About 1 kB a cell.
+ * 20 to 60 microseconds of processor time for a cell where the domain fits its segment; up to 2 ms
+ * where cells stay inverted (Documentation/Results.md).
  *
  * @par Errors
  * No polycube, or one that the patches do not fit; more cells than MostCells. A warning says how
