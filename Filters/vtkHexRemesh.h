@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkHexRemesh
- * @brief   hexahedra from a domain: a structured grid in each block, without folds
+ * @brief   hexahedra from a domain: a structured grid in each block, untangled
  *
  * The nodes of a block lie on lines of constant u, v and w. Nodes of a patch lie on its surface,
  * those of a border between patches on the border; blocks share the nodes of common faces, edges

@@ -115,6 +115,23 @@ TEST(HexRemesh, FillsABall)
   EXPECT_EQ(static_cast<vtkIdType>(placeOf.size()), hexes->GetNumberOfPoints());
 }
 
+// What cells lack of the volume is what lies outside of their chords: a quarter for half the edge.
+TEST(HexRemesh, LacksNoVolumeButOutsideOfChords)
+{
+  const vtkNew<vtkPolyData> surface = Ball();
+  const double volume = VolumeOf(surface, 1);
+  Remeshed mesh(surface);
+  const auto missing = [&](double edge)
+  {
+    mesh.Filter->SetEdgeLength(edge);
+    mesh.Filter->Update();
+    return 1.0 - VolumeOfCells(mesh.Filter->GetHexahedra(), 1) / volume;
+  };
+  const double coarse = missing(1.0), fine = missing(0.5);
+  EXPECT_LT(std::abs(fine), 0.005) << coarse;
+  EXPECT_LT(std::abs(fine), 0.35 * std::abs(coarse)) << coarse;
+}
+
 TEST(HexRemesh, SharesTheNodesBetweenSegments)
 {
   const vtkNew<vtkPolyData> surface = SurfaceOf(11,
