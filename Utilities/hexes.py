@@ -17,28 +17,11 @@ import time
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkFiltersCore import vtkMassProperties
 from vtkmodules.vtkFiltersVerdict import vtkMeshQuality
-from vtkmodules.vtkIOXML import (vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader,
-                                 vtkXMLUnstructuredGridWriter)
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
-from trivariate import vtkHexRemesh
-
-
-def read(reader, file):
-    reader.SetFileName(str(file))
-    reader.Update()
-    return reader.GetOutput()
-
-
-def image_around(surface):
-    """A grid of unit voxels: Hex Remesh takes no more of it than its points' arrays."""
-    bounds = numpy.array(surface.GetBounds()).reshape(3, 2)
-    image = vtkImageData()
-    image.SetOrigin(*numpy.floor(bounds[:, 0]))
-    image.SetDimensions(*(numpy.ceil(numpy.ptp(bounds, axis=1)).astype(int) + 2))
-    return image
+import meshes
 
 
 def volumes_of(cells):
@@ -51,15 +34,9 @@ def volumes_of(cells):
 
 def print_row(folder, run):
     name, edge = run.split(":")
-    stem = name.replace("=", "_").replace(",", "_")
-    patches = read(vtkXMLPolyDataReader(), folder / f"{stem}_patches.vtp")
-    remesh = vtkHexRemesh()
-    remesh.SetInputDataObject(0, image_around(patches))
-    remesh.SetInputDataObject(1, patches)
-    remesh.SetInputDataObject(2, read(vtkXMLUnstructuredGridReader(), folder / f"{stem}_domain.vtu"))
-    remesh.SetEdgeLength(float(edge))
+    patches, _, polycube = meshes.read_domain(folder, name)
     start = time.process_time()
-    remesh.Update()
+    remesh = meshes.remesh(patches, polycube, float(edge))
     seconds = time.process_time() - start
     mesh = remesh.GetOutputDataObject(1)
     quality = vtk_to_numpy(mesh.GetCellData().GetArray("ScaledJacobian"))
@@ -73,7 +50,7 @@ def print_row(folder, run):
           f"| {100 * (volumes.sum() / surface.GetVolume() - 1):+.1f} % | {seconds:.1f} |", flush=True)
     writer = vtkXMLUnstructuredGridWriter()
     writer.SetInputData(mesh)
-    writer.SetFileName(str(folder / f"{stem}_hexes.vtu"))
+    writer.SetFileName(str(folder / f"{meshes.stem(name)}_hexes.vtu"))
     writer.SetDataModeToBinary()
     writer.Write()
 

@@ -157,10 +157,11 @@ def show_lines(source, color, width, view):
     shown.RenderLinesAsTubes = 1
 
 
-def save_frames(path, aligned, unaligned):
+def save_frames(path, name, aligned, unaligned):
     """Frames with patches on a slice; lines along each of their directions; singular curves
     without patches."""
-    views = [view_of("frames"), view_of("lines along u, v, w"), view_of("singular without patches")]
+    views = [view_of(title) for title in (f"{name}: frames", "lines along u, v, w",
+                                          "singular without patches")]
     bounds = aligned.GetDataInformation().GetBounds()
     centre = [0.5 * (bounds[2 * a] + bounds[2 * a + 1]) for a in range(3)]
     largest = max(bounds[2 * a + 1] - bounds[2 * a] for a in range(3))
@@ -189,4 +190,4 @@ def save_frames(path, aligned, unaligned):
     layout.SplitHorizontal(2, 0.5)
     for view, place in zip(views, (1, 5, 6)):
         simple.AssignViewToLayout(view, layout, place)
-    simple.SaveScreenshot(path, layout, ImageResolution=[1500, 600])
+    simple.SaveScreenshot(path, layout, ImageResolution=[1500, 500])

@@ -1,0 +1,46 @@
+# SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Domains that domains.py saved, and meshes of hexahedra in them."""
+import numpy
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
+
+from trivariate import vtkHexRemesh
+
+
+def read(reader, file):
+    reader.SetFileName(str(file))
+    reader.Update()
+    return reader.GetOutput()
+
+
+def stem(name):
+    """What the files of a run are called: tooth=105,175+ -> tooth_105_175+."""
+    return name.replace("=", "_").replace(",", "_")
+
+
+def read_domain(folder, name):
+    """Patches, borders and polycube."""
+    return (read(vtkXMLPolyDataReader(), folder / f"{stem(name)}_patches.vtp"),
+            read(vtkXMLPolyDataReader(), folder / f"{stem(name)}_borders.vtp"),
+            read(vtkXMLUnstructuredGridReader(), folder / f"{stem(name)}_domain.vtu"))
+
+
+def image_around(surface):
+    """A grid of unit voxels: Hex Remesh takes no more of it than its points' arrays."""
+    bounds = numpy.array(surface.GetBounds()).reshape(3, 2)
+    image = vtkImageData()
+    image.SetOrigin(*numpy.floor(bounds[:, 0]))
+    image.SetDimensions(*(numpy.ceil(numpy.ptp(bounds, axis=1)).astype(int) + 2))
+    return image
+
+
+def remesh(patches, polycube, edge):
+    """Hex Remesh, updated, with the wanted edge of a cell in space."""
+    filter = vtkHexRemesh()
+    filter.SetInputDataObject(0, image_around(patches))
+    filter.SetInputDataObject(1, patches)
+    filter.SetInputDataObject(2, polycube)
+    filter.SetEdgeLength(edge)
+    filter.Update()
+    return filter
