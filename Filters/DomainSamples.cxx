@@ -204,23 +204,10 @@ ShapeSamples ReadShape(vtkPartitionedDataSetCollection* meshes, const BlockCompl
     {
       intervals[a] = cells[a] * ((FewestIntervals + cells[a] - 1) / cells[a]);
     }
-    for (int k = 0; k <= intervals[2]; ++k)
-    {
-      for (int j = 0; j <= intervals[1]; ++j)
-      {
-        for (int i = 0; i <= intervals[0]; ++i)
-        {
-          const std::array<double, 3> local{ double(i) / intervals[0], double(j) / intervals[1],
-            double(k) / intervals[2] };
-          const std::array<double, 3> place = PlaceIn(grid, cells, local);
-          for (int a = 0; a < 3; ++a)
-          {
-            shape.Parameters.push_back(blocks.Origins[b][a] + local[a]);
-          }
-          shape.Places.insert(shape.Places.end(), place.begin(), place.end());
-        }
-      }
-    }
+    AddSamplesOfBlock(
+      blocks, b, intervals,
+      [grid, &cells](const std::array<double, 3>& local) { return PlaceIn(grid, cells, local); },
+      shape);
   }
   return shape;
 }

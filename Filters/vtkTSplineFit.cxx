@@ -86,6 +86,7 @@ void ReportShape(const BlockFitResult& result, Index voxels, double spacing, vtk
   AddNumbers<vtkIdTypeArray>(field, "ShapeControlPoints", { number(result.ShapePoints) });
   AddNumbers<vtkDoubleArray>(
     field, "ShapeDistance", { result.ShapeRms / spacing, result.ShapeMaximum / spacing });
+  AddNumbers<vtkIdTypeArray>(field, "NumbersStored", { number(result.NumbersStored) });
   AddNumbers<vtkIdTypeArray>(
     field, "VoxelsInside", { number(result.VoxelsInside), number(voxels) });
   AddNumbers<vtkDoubleArray>(field, "SmallestJacobian", { result.SmallestJacobian });

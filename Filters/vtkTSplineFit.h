@@ -12,10 +12,10 @@
  *
  * Over a domain: with the parameters of the voxels, and the cubes and block meshes that belong to
  * them, one spline is fitted over all blocks of the domain. X, Y, Z become functions of (u, v, w)
- * whose faces lie on the surface of the segments, on the coarsest net that puts them there; every
- * voxel takes the parameters at which this shape passes through it, and the attributes are fitted
- * there. Blocks of one group are joined C2; across other common faces the control points are the
- * same on both sides, so there is no gap.
+ * whose faces lie on the surface of the segments, wherever on it, on the coarsest net that puts
+ * them there, and later splits carry them along; every voxel takes the parameters at which this
+ * shape passes through it, and the attributes are fitted there. Blocks of one group are joined C2;
+ * across other common faces the control points are the same on both sides, so there is no gap.
  *
  * @par Input
  * Port 0: a vtkImageData with two or more points along each axis. The point array chosen with
@@ -41,7 +41,9 @@
  * attributes the worst counts. The last row belongs to the output. Over a domain control points are
  * counted once for all functions that share them, rows are the rounds of the attributes, and the
  * field data has ShapeControlPoints (vtkIdType), ShapeDistance (double x 2: root mean square and
- * largest distance of the spline from the samples of the shape, in voxels), VoxelsInside (vtkIdType
+ * largest distance of the spline from where its surface is wanted, in voxels), NumbersStored
+ * (vtkIdType: three for each control point of the shape and one a component of the attributes for
+ * each of all control points), VoxelsInside (vtkIdType
  * x 2: voxels that the shape passes through, of how many), SmallestJacobian (double: least
  * determinant of d(X, Y, Z)/d(u, v, w), in parts of its mean) and ShapeCells (vtkIdType x 3: Bezier
  * cells of the shape, those with a fold, those proven to have none).
@@ -155,9 +157,10 @@ public:
 
   ///@{
   /**
-   * Over a domain, the shape is refined until the root mean square distance of its samples from it
-   * is at most this many voxels, those on the surface counting 25 times. Valid range [0, 100].
-   * Default is 0.05.
+   * Over a domain, the shape is refined until its root mean square distance from where the surface
+   * is wanted is at most this many voxels: a quarter of a voxel outside of the block meshes, so
+   * that the voxels next to it are inside. Without block meshes it is the distance of the voxels
+   * from their places. Valid range [0, 100]. Default is 0.1.
    */
   vtkSetClampMacro(ShapeTolerance, double, 0.0, 100.0);
   vtkGetMacro(ShapeTolerance, double);
@@ -166,7 +169,8 @@ public:
   ///@{
   /**
    * Over a domain, refinement of the shape takes at most this share of the control points. Valid
-   * range [0, 1]. Default is 0.5.
+   * range [0, 1]. Default is a quarter: then X, Y, Z are up to three sevenths of the numbers of the
+   * spline.
    */
   vtkSetClampMacro(ShapeShare, double, 0.0, 1.0);
   vtkGetMacro(ShapeShare, double);
@@ -227,8 +231,8 @@ private:
   double RMSTolerance = 0.0;
   double MaximumErrorTolerance = 0.0;
   bool LinearlyIndependent = true;
-  double ShapeTolerance = 0.05;
-  double ShapeShare = 0.5;
+  double ShapeTolerance = 0.1;
+  double ShapeShare = 0.25;
   std::vector<std::string> Attributes;
   std::string MaskArray = "None";
   vtkMultiProcessController* Controller = nullptr;

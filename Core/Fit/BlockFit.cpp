@@ -8,6 +8,7 @@
 #include "ScatteredSystem.h"
 #include "ShapeInverse.h"
 #include "ShapeJacobian.h"
+#include "ShapeTarget.h"
 #include "TSpline/Evaluator.h"
 
 #include <algorithm>
@@ -21,12 +22,21 @@ namespace
 {
 constexpr int FinalIterations = 400;
 
-// Stiffness of cells that fold, multiplied by four for each further attempt.
-constexpr float FirstStiffness = 1e-4f;
-constexpr int FoldAttempts = 6;
-// Stiffness that moves the shape away from its samples by more than this is taken back.
-constexpr double MostMoved = 1.25;
+// How far outside of the surface the shape is to lie, in voxels: those at the surface are to be
+// inside, also where the chords of the block mesh cut them off.
+constexpr double Margin = 0.25;
 
+// How often the samples of the surface slide after a solution between refinements, and after the
+// last one.
+constexpr int RoundSlides = 2, FinalSlides = 6;
+
+// Stiffness of all cells of a shape whose surface slides: little enough to bend as the surface
+// does, enough to be smooth inside where the block mesh is not.
+constexpr float LeastStiffness = 2e-6f;
+
+// By how much cells that fold become stiffer with each attempt to unfold them.
+constexpr float StiffnessGrowth = 4.0f;
+constexpr int FoldAttempts = 6;
 // One stage: some components are fitted to some samples, and the spline is refined for them.
 struct Stage
 {
@@ -35,8 +45,8 @@ struct Stage
   std::vector<double> Scales; // of each component: the unit of its error
   double RmsTolerance, MaximumTolerance;
   Index MaximumPoints;
-  bool IsShape;
-  std::vector<float> Stiffness = {}; // of cells that would fold
+  ShapeTarget* Target;               // null: a stage of attributes
+  std::vector<float> Stiffness = {}; // of each cell of a shape
 };
 
 class BlockFitter
@@ -82,6 +92,8 @@ public:
     const SharedPoints shared = this->Layout.Share(this->Result.Spline);
     this->Result.PointOf = shared.PointOf;
     this->Result.ControlPoints = shared.Count();
+    this->Result.NumbersStored =
+      3 * this->Result.ShapePoints + samples.Components * this->Result.ControlPoints;
     for (const BlendingFunction& f : this->Result.Spline.Functions)
     {
       this->Result.BlockOf.push_back(this->Layout.BlockOf(f));
@@ -106,10 +118,10 @@ private:
 
   void FitShape()
   {
-    const ScatteredSamples samples = SamplesOfShape(this->Blocks, this->Shape);
-    ScatteredSystem system(samples, 0, this->Layout, this->Run);
+    ShapeTarget target(this->Blocks, this->Shape, Margin * this->Options.Spacing);
+    ScatteredSystem system(target.Samples(), 0, this->Layout, this->Run);
     Stage stage{ system, 0, std::vector<double>(3, 1.0), this->Options.ShapeTolerance, 0.0,
-      std::min(this->Options.MaximumShapePoints, this->Options.MaximumControlPoints), true };
+      std::min(this->Options.MaximumShapePoints, this->Options.MaximumControlPoints), &target };
     this->Adapt(stage);
     this->Result.ShapePoints = system.Points().Count();
     this->Result.ShapeRms = this->Result.Rounds.back().Rms;
@@ -121,7 +133,7 @@ private:
   {
     ScatteredSystem system(samples, 3, this->Layout, this->Run);
     Stage stage{ system, 3, {}, this->Options.RmsTolerance, this->Options.MaximumErrorTolerance,
-      this->Options.MaximumControlPoints, false };
+      this->Options.MaximumControlPoints, nullptr };
     for (int c = 0; c < samples.Components; ++c)
     {
       stage.Scales.push_back(system.Range(c));
@@ -132,7 +144,7 @@ private:
   void Adapt(Stage& stage)
   {
     TSpline& spline = this->Result.Spline;
-    stage.System.Update(spline);
+    this->Update(stage);
     for (std::size_t c = 0; c < stage.Scales.size(); ++c)
     {
       for (Index i = 0; i < spline.Size(); ++i)
@@ -146,12 +158,11 @@ private:
     this->Measure(stage);
     while (true)
     {
-      const bool isGood = this->IsGoodEnough(stage) && (!stage.IsShape || this->Unfold(stage));
+      const bool isGood = this->IsGoodEnough(stage) && (!stage.Target || this->Unfold(stage));
       const bool isRefined = !isGood && this->RefineOnce(stage);
       if (isRefined)
       {
-        stage.System.Update(spline);
-        stage.Stiffness.clear();
+        this->Update(stage);
         stage.System.ComputeResiduals(spline);
         this->Lap("sort");
         this->Solve(stage, RoundTolerance, RoundIterations);
@@ -161,7 +172,7 @@ private:
       this->Result.Rounds.pop_back();
       this->Solve(stage, FinalTolerance, FinalIterations);
       this->Measure(stage);
-      if (stage.IsShape)
+      if (stage.Target)
       {
         this->Unfold(stage);
         this->Folded.clear();
@@ -173,11 +184,44 @@ private:
     }
   }
 
+  void Update(Stage& stage)
+  {
+    stage.System.Update(this->Result.Spline);
+    if (stage.Target)
+    {
+      const float stiffness = stage.Target->Slides() ? LeastStiffness : 0.0f;
+      stage.Stiffness.assign(stage.System.Mesh().Size(), stiffness);
+      stage.System.SetStiffness(stage.Stiffness);
+    }
+  }
+
   void Solve(Stage& stage, double tolerance, int iterations)
   {
-    TSpline& spline = this->Result.Spline;
     const GramMatrix gram = stage.System.Assemble();
     this->Lap("assemble");
+    this->Correct(stage, gram, tolerance, iterations);
+    if (stage.Target && stage.Target->Slides())
+    {
+      const int slides = tolerance == FinalTolerance ? FinalSlides : RoundSlides;
+      for (int slide = 0; slide < slides; ++slide)
+      {
+        this->Slide(stage);
+        this->Correct(stage, gram, tolerance, iterations);
+      }
+      this->Slide(stage);
+    }
+  }
+
+  void Slide(Stage& stage)
+  {
+    stage.Target->Slide(this->Result.Spline, stage.System.Mesh(), this->Run);
+    stage.System.ComputeResiduals(this->Result.Spline);
+    this->Lap("slide");
+  }
+
+  void Correct(Stage& stage, const GramMatrix& gram, double tolerance, int iterations)
+  {
+    TSpline& spline = this->Result.Spline;
     const SharedPoints& points = stage.System.Points();
     std::vector<double> correction;
     for (std::size_t c = 0; c < stage.Scales.size(); ++c)
@@ -203,6 +247,11 @@ private:
       const ScatteredError error = stage.System.Error(static_cast<int>(c));
       round.Rms = std::max(round.Rms, error.Rms / stage.Scales[c]);
       round.MaximumError = std::max(round.MaximumError, error.Maximum / stage.Scales[c]);
+    }
+    if (stage.Target && stage.Target->Slides())
+    {
+      round.Rms = stage.Target->Distance().Rms;
+      round.MaximumError = stage.Target->Distance().Maximum;
     }
     round.Seconds = this->Time.Total();
     this->Result.Rounds.push_back(round);
@@ -257,15 +306,14 @@ private:
   bool Unfold(Stage& stage)
   {
     const BezierMesh& mesh = stage.System.Mesh();
-    const double farthest =
-      std::max(stage.RmsTolerance, MostMoved * this->Result.Rounds.back().Rms);
-    stage.Stiffness.resize(mesh.Size(), 0.0f);
+    const double farthest = std::max(stage.RmsTolerance, this->Result.Rounds.back().Rms);
     for (int attempt = 0; this->FindFolds(stage); ++attempt)
     {
       if (attempt == FoldAttempts)
       {
         return false;
       }
+      const std::vector<float> softer = stage.Stiffness;
       const std::vector<char> isActive = this->FunctionsOfFolds(mesh);
       for (Index cell = 0; cell < mesh.Size(); ++cell)
       {
@@ -273,19 +321,21 @@ private:
         if (std::any_of(
               active.begin(), active.end(), [&isActive](std::int32_t i) { return isActive[i]; }))
         {
-          stage.Stiffness[cell] = std::max(FirstStiffness, 4.0f * stage.Stiffness[cell]);
+          stage.Stiffness[cell] = StiffnessGrowth * std::max(LeastStiffness, stage.Stiffness[cell]);
         }
       }
       const std::vector<double> before = this->Result.Spline.ControlPoints;
-      stage.System.SetStiffness(stage.Stiffness);
-      this->Solve(stage, FinalTolerance, FinalIterations);
       const FitRound round = this->Result.Rounds.back();
       this->Result.Rounds.pop_back();
+      stage.System.SetStiffness(stage.Stiffness);
+      this->Solve(stage, FinalTolerance, FinalIterations);
       this->Measure(stage);
       if (this->Result.Rounds.back().Rms > farthest)
       {
         this->Result.Spline.ControlPoints = before;
         this->Result.Rounds.back() = round;
+        stage.Stiffness = softer;
+        stage.System.SetStiffness(softer);
         stage.System.ComputeResiduals(this->Result.Spline);
         return false;
       }

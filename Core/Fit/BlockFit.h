@@ -4,9 +4,10 @@
  * Adaptive least-squares fit of one T-spline to samples over the blocks of a domain.
  *
  * First the shape: X, Y, Z as functions of the parameters, refined until the spline's surface lies
- * on the samples of the surface, and no further; what comes after carries it along unchanged, so it
- * lives on a coarser net, nested in that of the attributes. Then every voxel takes the parameters
- * at which this shape passes through it, and the attributes are fitted there, as in FitGrid.
+ * on that of the samples, wherever on it, and no further; what comes after carries it along
+ * unchanged, so it lives on a coarser net, nested in that of the attributes. Then every voxel takes
+ * the parameters at which this shape passes through it, and the attributes are fitted there, as in
+ * FitGrid.
  */
 #ifndef trivariate_BlockFit_h
 #define trivariate_BlockFit_h
@@ -14,6 +15,8 @@
 #include "Domain/BlockComplex.h"
 #include "Fit.h"
 
+#include <array>
+#include <functional>
 #include <vector>
 
 namespace trivariate
@@ -34,7 +37,19 @@ struct ShapeSamples
 {
   std::vector<double> Parameters; ///< (u, v, w) of each; on a face of a block: of the surface
   std::vector<double> Places;     ///< (X, Y, Z) of each
+  /// The surface between the samples on it, three of them each, anticlockwise seen from outside of
+  /// their block; none: the shape takes each sample to its own place.
+  std::vector<std::array<Index, 3>> Surface;
 };
+
+/**
+ * Appends a lattice of samples of block b, `intervals` along its edges: place(u, v, w) for u, v, w
+ * in [0, 1]; and the triangles between them on those of its faces that are on the surface of its
+ * segment, outer or to another one. (u, v, w) must map to places right-handedly.
+ */
+void AddSamplesOfBlock(const BlockComplex& blocks, Index b, const std::array<int, 3>& intervals,
+  const std::function<std::array<double, 3>(const std::array<double, 3>&)>& place,
+  ShapeSamples& shape);
 
 struct BlockFitOptions
 {
@@ -42,9 +57,9 @@ struct BlockFitOptions
   /// As in FitOptions.
   double RmsTolerance = 0.0;
   double MaximumErrorTolerance = 0.0;
-  /// The shape is refined until the root mean square distance of its samples on the surface is at
-  /// most this, in the unit of the places, or it has MaximumShapePoints control points.
-  double ShapeTolerance = 0.05;
+  /// The shape is refined until the root mean square distance from where the surface is wanted is
+  /// at most this, in the unit of the places, or it has MaximumShapePoints control points.
+  double ShapeTolerance = 0.1;
   Index MaximumShapePoints = 2000;
   double Spacing = 1.0;  ///< distance of voxels in the unit of the places
   int CoarsestCells = 1; ///< along the edge of a block, a power of two
@@ -59,7 +74,10 @@ struct BlockFitResult
   Index ControlPoints = 0;    ///< distinct ones
   std::vector<FitRound> Rounds;
   Index ShapePoints = 0; ///< distinct control points that the shape was fitted with
-  double ShapeRms = 0.0, ShapeMaximum = 0.0; ///< distance of the samples on the surface
+  /// The numbers that the spline consists of beside its knots: three for each control point of the
+  /// shape, which later splits only carry along, and the attributes of all control points.
+  Index NumbersStored = 0;
+  double ShapeRms = 0.0, ShapeMaximum = 0.0; ///< distance from where the surface is wanted
   Index VoxelsInside = 0;                    ///< voxels that the shape passes through
   /// The least determinant of d(X, Y, Z)/d(u, v, w) at all voxels and at 9 x 9 x 9 points of each
   /// cell of the shape, in parts of the mean over the voxels.

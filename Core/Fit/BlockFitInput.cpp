@@ -10,8 +10,6 @@ namespace trivariate
 {
 namespace
 {
-constexpr float SurfaceWeight = 25.0f;
-
 void CheckParameters(
   const BlockComplex& blocks, const std::vector<double>& parameters, const std::string& whose)
 {
@@ -81,33 +79,45 @@ int KnotDepth(const BlockComplex& blocks, const ShapeSamples& shape, double spac
 }
 
 //------------------------------------------------------------------------------
-ScatteredSamples SamplesOfShape(const BlockComplex& blocks, const ShapeSamples& shape)
+void AddSamplesOfBlock(const BlockComplex& blocks, Index b, const std::array<int, 3>& intervals,
+  const std::function<std::array<double, 3>(const std::array<double, 3>&)>& place,
+  ShapeSamples& shape)
 {
-  ScatteredSamples samples;
-  samples.Parameters = shape.Parameters;
-  samples.Components = 3;
-  const Index n = samples.Count();
-  std::vector<char> onSurface(n, 0);
-  for (Index i = 0; i < n; ++i)
+  const auto first = static_cast<Index>(shape.Places.size() / 3);
+  const std::array<Index, 3> steps{ 1, intervals[0] + 1,
+    Index(intervals[0] + 1) * (intervals[1] + 1) };
+  for (Index m = 0; m < steps[2] * (intervals[2] + 1); ++m)
   {
-    const double* p = &samples.Parameters[3 * i];
-    const Index b = blocks.BlockAt({ p[0], p[1], p[2] });
-    for (int face = 0; b >= 0 && face < 6; ++face)
+    const std::array<double, 3> local{ double(m % steps[1]) / intervals[0],
+      double(m % steps[2] / steps[1]) / intervals[1], double(m / steps[2]) / intervals[2] };
+    for (int a = 0; a < 3; ++a)
     {
-      const int a = face / 2, side = face % 2;
-      const FaceTwin& twin = blocks.Twin({ b, a, side });
-      const bool isOuter = !twin.Exists() || blocks.Segments[twin.Face.Block] != blocks.Segments[b];
-      onSurface[i] |= isOuter && p[a] == blocks.Origins[b][a] + side;
+      shape.Parameters.push_back(blocks.Origins[b][a] + local[a]);
     }
-    samples.Weights.push_back(onSurface[i] ? SurfaceWeight : 1.0f);
+    const std::array<double, 3> x = place(local);
+    shape.Places.insert(shape.Places.end(), x.begin(), x.end());
   }
-  for (int a = 0; a < 3; ++a)
+  for (int face = 0; face < 6; ++face)
   {
-    for (Index i = 0; i < n; ++i)
+    const int axis = face / 2, side = face % 2;
+    const FaceTwin& twin = blocks.Twin({ b, axis, side });
+    if (twin.Exists() && blocks.Segments[twin.Face.Block] == blocks.Segments[b])
     {
-      samples.Values.push_back(shape.Places[3 * i + a]);
+      continue;
+    }
+    // The two directions along the face, right-handed with the one out of the block.
+    const int s = (axis + 2 - side) % 3, t = (axis + 1 + side) % 3;
+    for (int i = 0; i < intervals[s]; ++i)
+    {
+      for (int j = 0; j < intervals[t]; ++j)
+      {
+        const Index corner =
+          first + side * intervals[axis] * steps[axis] + i * steps[s] + j * steps[t];
+        const Index opposite = corner + steps[s] + steps[t];
+        shape.Surface.push_back({ corner, corner + steps[s], opposite });
+        shape.Surface.push_back({ corner, opposite, corner + steps[t] });
+      }
     }
   }
-  return samples;
 }
 }

@@ -5,7 +5,6 @@
 #define trivariate_BlockFitInput_h
 
 #include "BlockFit.h"
-#include "ScatteredSystem.h"
 
 namespace trivariate
 {
@@ -16,10 +15,6 @@ void CheckBlockFit(const BlockComplex& blocks, const BlockSamples& voxels,
 /// How often the edge of a block is halved until its knots are about a voxel apart, as far as the
 /// index grid has no more than 128 million boxes, of which refinement keeps a byte each.
 int KnotDepth(const BlockComplex& blocks, const ShapeSamples& shape, double spacing);
-
-/// X, Y, Z at the samples of the shape. Those of the surface, on faces without a twin or with one
-/// in another segment, count more than those inside, where voxels find their own parameters.
-ScatteredSamples SamplesOfShape(const BlockComplex& blocks, const ShapeSamples& shape);
 }
 
 #endif

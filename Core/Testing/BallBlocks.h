@@ -78,15 +78,14 @@ struct BallMap
     ShapeSamples shape;
     for (Index b = 0; b < this->Blocks.Size(); ++b)
     {
-      const LatticePoint& o = this->Blocks.Origins[b];
-      for (int m = 0; m < (n + 1) * (n + 1) * (n + 1); ++m)
-      {
-        const std::array<double, 3> p{ o[0] + double(m % (n + 1)) / n,
-          o[1] + double(m / (n + 1) % (n + 1)) / n, o[2] + double(m / (n + 1) / (n + 1)) / n };
-        const auto x = this->Place(b, p);
-        shape.Parameters.insert(shape.Parameters.end(), p.begin(), p.end());
-        shape.Places.insert(shape.Places.end(), x.begin(), x.end());
-      }
+      AddSamplesOfBlock(
+        this->Blocks, b, { n, n, n },
+        [this, b](const std::array<double, 3>& local)
+        {
+          const LatticePoint& o = this->Blocks.Origins[b];
+          return this->Place(b, { o[0] + local[0], o[1] + local[1], o[2] + local[2] });
+        },
+        shape);
     }
     return shape;
   }

@@ -45,6 +45,35 @@ TEST(BlockFit, BeatsTheGridOnABall)
   EXPECT_GT(identity.Rounds.back().Rms, 10.0 * fit.Rounds.back().Rms);
 }
 
+// Nodes that are anywhere on the sphere, uneven along it, cost a shape that must take each to its
+// place many functions, and one that must only be on the surface none.
+TEST(BlockFit, SlidesOnTheSurface)
+{
+  const BallPhantom ball(30);
+  ShapeSamples nodes = ball.Map.Nodes(16);
+  for (std::size_t i = 0; i < nodes.Places.size(); i += 3)
+  {
+    double* x = &nodes.Places[i];
+    const double angle = 0.05 * std::sin(1.7 * x[2]), c = std::cos(angle), s = std::sin(angle);
+    const double rotated[2] = { c * x[0] - s * x[1], s * x[0] + c * x[1] };
+    std::copy_n(rotated, 2, x);
+  }
+  const auto fit = [&ball](const ShapeSamples& shape)
+  {
+    return FitBlocks(ball.Map.Blocks, ball.Voxels, shape, Options(1000, 0.1), ThreadedExecution(2));
+  };
+  const BlockFitResult sliding = fit(nodes);
+  EXPECT_LT(sliding.ShapeRms, 0.1);
+  EXPECT_LT(sliding.ShapePoints, 300);
+  EXPECT_EQ(sliding.VoxelsInside, ball.Voxels.Count());
+  EXPECT_GT(sliding.SmallestJacobian, 0.0);
+  EXPECT_EQ(sliding.NumbersStored, 3 * sliding.ShapePoints + sliding.ControlPoints);
+  nodes.Surface.clear();
+  const BlockFitResult fixed = fit(nodes);
+  EXPECT_GT(fixed.ShapePoints, 400);
+  EXPECT_GT(fixed.ShapeRms, 2.0 * sliding.ShapeRms);
+}
+
 TEST(BlockFit, NeedsNoMoreThanTheTolerance)
 {
   const BallPhantom ball(24);
