@@ -11,9 +11,9 @@
 #ifndef FieldSampler_h
 #define FieldSampler_h
 
+#include "Execution.h"
 #include "TSpline/BezierMesh.h"
 #include "TSpline/Evaluator.h"
-#include "Execution.h"
 #include "TSpline/TSplineModel.h"
 
 #include "vtkDoubleArray.h"
@@ -36,6 +36,7 @@ struct TSplineView
   const BezierMesh& Mesh;
   bool Gradients;
   bool Jacobian;
+  double Reach = 0.0; ///< points not so far outside take the value at the nearest point inside
 };
 
 class FieldSampler

@@ -148,6 +148,14 @@ void CheckLabels(vtkDataArray* labels, vtkDataSet* output)
 }
 
 //------------------------------------------------------------------------------
+double ReachIn(vtkDataSet* points)
+{
+  vtkImageData* image = vtkImageData::SafeDownCast(points);
+  const double* spacing = image ? image->GetSpacing() : nullptr;
+  return spacing ? LabelReach * *std::max_element(spacing, spacing + 3) : 0.0;
+}
+
+//------------------------------------------------------------------------------
 void FillPointsOfSegments(
   const TSplineView& whole, vtkDataArray* labels, vtkDataSet* output, const Execution& execution)
 {
@@ -159,7 +167,8 @@ void FillPointsOfSegments(
     const Execution part = execution.Part(1.0 * n / segments.size(), (n + 1.0) / segments.size());
     const TSplineModel own = SegmentPart(whole.Model, segments[n]);
     const BezierMesh mesh(own.Spline, part.Part(0.0, 0.1));
-    const TSplineView view{ own, mesh, whole.Gradients, whole.Jacobian };
+    const TSplineView view{ own, mesh, whole.Gradients, whole.Jacobian,
+      labels ? ReachIn(output) : 0.0 };
     if (n == 0)
     {
       AddZeros(view, output, part);

@@ -16,9 +16,16 @@ class vtkDataSet;
 
 namespace trivariate
 {
+constexpr double LabelReach = 1.5; ///< in voxels, of the longest side
+
+/// That of an image in space; 0 of other points.
+double ReachIn(vtkDataSet* points);
+
 /**
  * As FillPoints, but every point by the spline of its own segment, which `labels` tells; without
- * labels (null) by that of the highest segment that holds it. Throws std::invalid_argument with a
+ * labels (null) by that of the highest segment that holds it. Points of an image that have a label
+ * and lie up to LabelReach voxels outside of the spline take its value at the nearest point: a
+ * smooth surface does not go around every voxel. Throws std::invalid_argument with a
  * sentence for the user when the labels are not one number a point.
  */
 void FillPointsOfSegments(

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TSplinePoints.h"
 
+#include "MemoryLimit.h"
 #include "TSpline/BezierExtraction.h"
 #include "TSpline/InverseJacobian.h"
 #include "TSpline/InverseMap.h"
-#include "MemoryLimit.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCharArray.h"
@@ -114,7 +114,8 @@ void FillPoints(const TSplineView& view, vtkDataSet* output, const Execution& ex
       }
       const Execution part =
         execution.Part(0.2 + 0.8 * first / count, 0.2 + 0.8 * (first + n) / count);
-      inverse.Find(n, positions.data(), parameters.data(), found + first, part.Part(0.0, 0.7));
+      inverse.Find(
+        n, positions.data(), parameters.data(), found + first, part.Part(0.0, 0.7), view.Reach);
       sampler.Sample(first, n, parameters.data(), found + first, part.Part(0.7, 1.0));
     }
   }

@@ -20,8 +20,9 @@ namespace trivariate
 {
 /**
  * Adds the attributes at the points that `output` has. vtkValidPointMask tells which of them lie in
- * the spline; zeros elsewhere. An image that is aligned with a spline of affine geometry (such as
- * the image that the spline was fitted to) is evaluated as a lattice, without searching.
+ * the spline, or not farther outside than the view's reach; zeros elsewhere. An image that is
+ * aligned with a spline of affine geometry (such as the image that the spline was fitted to) is
+ * evaluated as a lattice, without searching.
  */
 void FillPoints(const TSplineView& view, vtkDataSet* output, const Execution& execution);
 

@@ -33,7 +33,8 @@
  * - Corners: of the polycube on the surfaces (port 2 with the point array CornerId);
  * - ControlPoints: blending functions;
  * - RoundTripRMSPercent, MaximumErrorPercent: of the round trip, in percent of the same range;
- *   FoundPercent: share of the voxels found by the inverse map;
+ *   FoundPercent: share of the voxels found by the inverse map, in a spline of several segments
+ * also those that lie up to 1.5 voxels outside of theirs and take the value at its nearest point;
  * - PSNRDecibels: -20 log10 of the round trip's RMS as a share of the range;
  * - HausdorffVoxels: Hausdorff distance of the spline's boundary and the segment's surface (port
  *   2), in units of voxels; the largest one in total. NaN for an affine geometry, whose boundary is

@@ -37,7 +37,9 @@
  *
  * The splines of several segments overlap in space. For IMAGE and POINTS the point array Segment of
  * port 1 tells whose spline counts at a point; without it that of the highest segment that holds
- * the point does.
+ * the point does. A voxel with a label that lies outside of its segment's spline, but not more than
+ * 1.5 voxels, takes the value at the nearest point of that: a smooth surface does not go around
+ * every voxel.
  *
  * @par Arrays
  * All floating point arrays are double. Point arrays:
@@ -45,7 +47,8 @@
  * - "<name>Gradient", 3 numbers a component (by x, y, z in space), with ComputeGradients;
  * - "JacobianDeterminant", of (x, y, z) by (u, v, w), with ComputeJacobian;
  * - "Parameter" (u, v, w): LINEAR_HEXES, TMESH, ISO_SURFACES;
- * - "vtkValidPointMask" (char): IMAGE, POINTS: 1 in the spline, 0 outside, where all is zero;
+ * - "vtkValidPointMask" (char): IMAGE, POINTS: 1 in the spline (or near enough to it, see above), 0
+ *   outside, where all is zero;
  * - "RationalWeights" (active attribute) and its plain twin "BezierWeights": BEZIER_HEXES. Points
  *   and attributes are the control values of the rational form, as VTK interpolates them.
  *   ComputeGradients and ComputeJacobian have no effect: these are no functions of that form.

@@ -415,7 +415,7 @@ bool InverseMap::Find(const double point[3], double parameters[3]) const
 
 //------------------------------------------------------------------------------
 void InverseMap::Find(Index n, const double* points, double* parameters, std::uint8_t* found,
-  const Execution& execution) const
+  const Execution& execution, double reach) const
 {
   constexpr Index Batch = 1 << 15; // points between two looks at the abort flag
   for (Index first = 0; first < n; first += Batch)
@@ -427,7 +427,8 @@ void InverseMap::Find(Index n, const double* points, double* parameters, std::ui
         for (Index i = first + begin; i < first + end; ++i)
         {
           std::fill_n(parameters + 3 * i, 3, 0.0);
-          found[i] = this->Find(points + 3 * i, parameters + 3 * i);
+          found[i] = reach > 0.0 ? this->FindNearest(points + 3 * i, reach, parameters + 3 * i)
+                                 : this->Find(points + 3 * i, parameters + 3 * i);
         }
       });
   }

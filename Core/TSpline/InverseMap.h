@@ -45,9 +45,16 @@ public:
    */
   bool Find(const double point[3], double parameters[3]) const;
 
-  /// n points; parameters are zero where found[i] is 0.
+  /**
+   * As Find, and where no cell maps there the parameters of the nearest point of the geometry, if
+   * it is less than `reach` away (a local minimum in each cell counts). False where the geometry is
+   * affine and Find is.
+   */
+  bool FindNearest(const double point[3], double reach, double parameters[3]) const;
+
+  /// n points, by FindNearest where `reach` is not zero; parameters are zero where found[i] is 0.
   void Find(Index n, const double* points, double* parameters, std::uint8_t* found,
-    const Execution& execution = {}) const;
+    const Execution& execution = {}, double reach = 0.0) const;
 
 private:
   using Vector = std::array<double, 3>;
@@ -76,6 +83,8 @@ private:
   bool FindBelow(
     std::int32_t node, const Vector& point, int startsAnAxis, Vector& parameters) const;
   bool Evaluate(const Vector& point, Place& place) const;
+  void Approach(const Vector& point, Index cell, Place& nearest) const;
+  void NearestBelow(std::int32_t node, const Vector& point, Place& nearest) const;
   bool Newton(const Vector& point, Vector& parameters) const;
   void ClampToDomain(Vector& parameters) const;
 

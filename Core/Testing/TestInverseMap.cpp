@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "TSpline/InverseMap.h"
 #include "RandomRefinement.h"
 #include "Shapes.h"
+#include "TSpline/InverseMap.h"
 #include "ThreadedExecution.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -95,6 +97,51 @@ TEST(InverseMap, OutsideIsNotFound)
   const Point bad = { nan, 1.0, 0.5 };
   Point u;
   EXPECT_FALSE(inverse.Find(bad.data(), u.data()));
+}
+
+// Off the annulus, as far as the reach: the distance of the point that is found is the true one.
+TEST(InverseMap, NearestPointsAreFoundWithinReach)
+{
+  constexpr double reach = 0.35;
+  std::mt19937 random(4);
+  TSpline spline = QuarterAnnulus(8);
+  const auto rule = MakeKnotInsertionRule(spline);
+  rule->Refine(spline, RandomMarks(spline, 4, random));
+  rule->Refine(spline, RandomMarks(spline, 4, random));
+  const BezierMesh mesh(spline);
+  const Evaluator geometry(spline, mesh, { 0, 1, 2 });
+  const InverseMap inverse(spline, mesh);
+  int inside = 0, near = 0, far = 0;
+  for (int n = 0; n < 2000; ++n)
+  {
+    const Point x = { Random(random, 0.0, 2.5), Random(random, 0.0, 2.5),
+      Random(random, -0.5, 1.5) };
+    const double radius = std::hypot(x[0], x[1]);
+    const double distance = std::hypot(
+      std::max({ 1.0 - radius, radius - 2.0, 0.0 }), std::max({ -x[2], x[2] - 1.0, 0.0 }));
+    if (std::abs(distance - reach) < 1e-6)
+    {
+      continue;
+    }
+    Point u = { 7.0, 7.0, 7.0 }, image;
+    ASSERT_EQ(inverse.FindNearest(x.data(), reach, u.data()), distance < reach);
+    if (distance > reach)
+    {
+      ASSERT_EQ(u[0], 7.0);
+      ++far;
+      continue;
+    }
+    ASSERT_TRUE(geometry.Evaluate(u.data(), { image.data() }));
+    ASSERT_NEAR(std::hypot(image[0] - x[0], image[1] - x[1], image[2] - x[2]), distance, 1e-6);
+    (distance > 0.0 ? near : inside) += 1;
+  }
+  EXPECT_GT(inside, 300);
+  EXPECT_GT(near, 300);
+  EXPECT_GT(far, 300);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Point bad = { nan, 1.0, 0.5 };
+  Point u;
+  EXPECT_FALSE(inverse.FindNearest(bad.data(), reach, u.data()));
 }
 
 TEST(InverseMap, IdentityIsExact)
