@@ -170,6 +170,19 @@ struct TricubicPolynomial
     return this->Combine(powers);
   }
 };
+
+/// A tensor product refined at random, with three components.
+inline TSpline RandomRefined(std::mt19937& random, int rounds, bool analysisSuitable = false)
+{
+  TSpline spline = RandomTensorProduct({ 2, 3, 2 }, { 3, 2, 3 }, random);
+  const auto rule =
+    analysisSuitable ? MakeAnalysisSuitableRule(spline) : MakeKnotInsertionRule(spline);
+  for (int round = 0; round < rounds; ++round)
+  {
+    rule->Refine(spline, RandomMarks(spline, 6, random));
+  }
+  return spline;
+}
 }
 
 #endif

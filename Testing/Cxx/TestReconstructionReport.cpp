@@ -1,118 +1,24 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ErrorLog.h"
-#include "SplineModels.h"
-#include "vtkReconstructionReport.h"
-#include "vtkTSplineFit.h"
+#include "ReportChecks.h"
 #include "vtkTSplineWriter.h"
 
-#include "vtkAppendFilter.h"
-#include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCubeSource.h"
 #include "vtkDoubleArray.h"
-#include "vtkImageData.h"
 #include "vtkIntArray.h"
 #include "vtkPolyData.h"
-#include "vtkSMPTools.h"
-#include "vtkTable.h"
 #include "vtkTriangleFilter.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkZLibDataCompressor.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <functional>
 #include <limits>
 
-namespace
-{
 using namespace trivariate;
-using Function = std::function<double(const double*)>;
-
-template <typename ArrayT>
-ArrayT* AddArray(vtkImageData* image, const char* name, const Function& f)
-{
-  vtkNew<ArrayT> array;
-  array->SetName(name);
-  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
-  {
-    double x[3];
-    image->GetPoint(i, x);
-    array->InsertNextValue(static_cast<typename ArrayT::ValueType>(f(x)));
-  }
-  image->GetPointData()->AddArray(array);
-  return array;
-}
-
-// The image with the spline's attributes at its points.
-vtkNew<vtkImageData> Sampled(vtkUnstructuredGrid* grid, vtkImageData* lattice)
-{
-  vtkNew<vtkTSplineSource> source;
-  source->SetInputData(grid);
-  source->SetInputData(1, lattice);
-  source->SetOutputType(vtkTSplineSource::IMAGE);
-  source->Update();
-  vtkNew<vtkImageData> image;
-  image->ShallowCopy(source->GetOutput());
-  return image;
-}
-
-// The lattice of the integers in the box of a spline with whole-numbered ends.
-vtkNew<vtkImageData> Lattice(int nx, int ny, int nz)
-{
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(nx, ny, nz);
-  return image;
-}
-
-vtkSmartPointer<vtkReconstructionReport> MakeReport(
-  vtkImageData* image, const char* name, vtkUnstructuredGrid* grid)
-{
-  auto report = vtkSmartPointer<vtkReconstructionReport>::New();
-  report->SetInputData(0, image);
-  report->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name);
-  report->SetInputData(1, grid);
-  return report;
-}
-
-double Cell(vtkReconstructionReport* report, vtkIdType row, const char* column)
-{
-  vtkTable* table = report->GetOutput();
-  EXPECT_NE(table->GetColumnByName(column), nullptr) << column;
-  return table->GetValueByName(row, column).ToDouble();
-}
-
-// Two splines in one parameter space, the second one 100 further along u.
-vtkSmartPointer<vtkUnstructuredGrid> Together(TSplineModel first, TSplineModel second)
-{
-  vtkNew<vtkAppendFilter> append;
-  append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  for (double& knot : second.Spline.KnotLines[0])
-  {
-    knot += 100.0;
-  }
-  second.Block.assign(second.Spline.Size(), 1);
-  append->AddInputData(MakeGrid(first));
-  append->AddInputData(MakeGrid(second));
-  append->Update();
-  return append->GetOutput();
-}
-
-TSplineModel Moved(TSplineModel model, double x, int segment)
-{
-  for (Index i = 0; i < model.Spline.Size(); ++i)
-  {
-    model.Spline.ControlPoint(i)[0] += x;
-  }
-  model.Segment.assign(model.Spline.Size(), segment);
-  return model;
-}
-}
 
 //------------------------------------------------------------------------------
 TEST(ReconstructionReport, OfTheImageThatASplineIsHasNoErrors)
@@ -344,158 +250,4 @@ TEST(ReconstructionReport, MeasuresTheDistanceOfBoundariesInVoxels)
   surface->Modified();
   report->Update();
   EXPECT_TRUE(std::isnan(Cell(report, 1, "HausdorffVoxels")));
-}
-
-//------------------------------------------------------------------------------
-// A ball of two shells fitted by vtkTSplineFit under a mask, its indices a left hand.
-TEST(ReconstructionReport, AgreesWithTheFit)
-{
-  auto image = Lattice(25, 25, 25);
-  image->SetSpacing(0.5, 0.75, 0.5);
-  const double direction[9] = { 1, 0, 0, 0, 1, 0, 0, 0, -1 };
-  image->SetDirectionMatrix(direction);
-  const auto radius = [](const double* x)
-  { return std::hypot(x[0] / 0.5 - 12.0, x[1] / 0.75 - 12.0, x[2] / 0.5 + 12.0); };
-  AddArray<vtkDoubleArray>(
-    image, "Value", [radius](const double* x) { return std::tanh(9.0 - radius(x)); });
-  AddArray<vtkIntArray>(
-    image, "Segment", [radius](const double* x) { return radius(x) < 10.0 ? 1.0 : 0.0; });
-  vtkNew<vtkTSplineFit> fit;
-  fit->SetInputData(image);
-  fit->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Value");
-  fit->SetMaskArray("Segment");
-  fit->SetMaximumNumberOfControlPoints(700);
-  vtkNew<vtkReconstructionReport> report;
-  report->SetInputData(image);
-  report->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Value");
-  report->SetTSplineConnection(fit->GetOutputPort());
-  report->SetRoundsConnection(fit->GetOutputPort(1));
-  report->Update();
-  vtkTable* rounds = vtkTable::SafeDownCast(fit->GetOutputDataObject(1));
-  const vtkIdType last = rounds->GetNumberOfRows() - 1;
-  EXPECT_EQ(Cell(report, 2, "Seconds"), rounds->GetValueByName(last, "Seconds").ToDouble());
-  EXPECT_EQ(
-    Cell(report, 2, "ControlPoints"), rounds->GetValueByName(last, "ControlPoints").ToDouble());
-  // The fit takes the range of what counts, the report that of the image.
-  double range[2], own[2] = { 1.0, -1.0 };
-  vtkDataArray* values = image->GetPointData()->GetArray("Value");
-  values->GetRange(range);
-  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
-  {
-    if (image->GetPointData()->GetArray("Segment")->GetTuple1(i) == 1.0)
-    {
-      own[0] = std::min(own[0], values->GetTuple1(i));
-      own[1] = std::max(own[1], values->GetTuple1(i));
-    }
-  }
-  const double rms = rounds->GetValueByName(last, "RMS").ToDouble();
-  const double scaled = rms * (own[1] - own[0]) / (range[1] - range[0]);
-  EXPECT_GT(rms, 1e-4);
-  EXPECT_NEAR(Cell(report, 1, "RoundTripRMSPercent"), scaled, 1e-6 * scaled);
-  EXPECT_NEAR(Cell(report, 1, "RMSPercent"), scaled, 1e-6 * scaled);
-  EXPECT_EQ(Cell(report, 1, "FoundPercent"), 100.0);
-  EXPECT_NEAR(Cell(report, 2, "MinimumScaledJacobian"), 1.0, 1e-9);
-}
-
-//------------------------------------------------------------------------------
-TEST(ReconstructionReport, IsTheSameOnAnyNumberOfThreads)
-{
-  const TSplineModel model = QuarterAnnulus(6, 2);
-  auto image = Lattice(30, 30, 10);
-  image->SetSpacing(0.06, 0.06, 0.1);
-  AddArray<vtkDoubleArray>(image, "Radial", [](const double* x) { return x[0] + x[1] * x[2]; });
-  vtkNew<vtkTable> first;
-  for (const int threads : { 1, 2, 5 })
-  {
-    vtkSMPTools::LocalScope(vtkSMPTools::Config(threads, "STDThread", false),
-      [&]()
-      {
-        auto report = MakeReport(image, "Radial", MakeGrid(model));
-        report->Update();
-        if (threads == 1)
-        {
-          first->DeepCopy(report->GetOutput());
-        }
-        for (vtkIdType column = 0; column < first->GetNumberOfColumns(); ++column)
-        {
-          const double a = first->GetValue(1, column).ToDouble();
-          const double b = report->GetOutput()->GetValue(1, column).ToDouble();
-          EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0) << first->GetColumnName(column);
-        }
-      });
-  }
-}
-
-//------------------------------------------------------------------------------
-TEST(ReconstructionReport, StopsAndRunsAgain)
-{
-  const auto grid = MakeGrid(QuarterAnnulus(3, 2));
-  auto image = Lattice(30, 30, 10);
-  image->SetSpacing(0.06, 0.06, 0.1);
-  AddArray<vtkDoubleArray>(image, "Radial", [](const double* x) { return x[0]; });
-  for (const double at : { 0.0, 0.2, 0.45, 0.6 })
-  {
-    auto report = MakeReport(image, "Radial", grid);
-    vtkNew<vtkCallbackCommand> stop;
-    double where = at;
-    stop->SetClientData(&where);
-    stop->SetCallback(
-      [](vtkObject* caller, unsigned long, void* wanted, void*)
-      {
-        auto* algorithm = static_cast<vtkAlgorithm*>(caller);
-        if (algorithm->GetProgress() >= *static_cast<double*>(wanted))
-        {
-          algorithm->SetAbortExecute(1);
-        }
-      });
-    const unsigned long observer = report->AddObserver(vtkCommand::ProgressEvent, stop);
-    report->Update();
-    EXPECT_EQ(report->GetOutput()->GetNumberOfRows(), 0) << at;
-    report->RemoveObserver(observer);
-    report->SetAbortExecute(0);
-    report->Modified();
-    report->Update();
-    EXPECT_EQ(report->GetOutput()->GetNumberOfRows(), 2) << at;
-  }
-}
-
-//------------------------------------------------------------------------------
-TEST(ReconstructionReport, SaysWhatIsWrong)
-{
-  const auto grid = MakeGrid(RandomBox({ 1, 1, 1 }, 1, 1));
-  auto image = Lattice(9, 9, 9);
-  vtkDoubleArray* values =
-    AddArray<vtkDoubleArray>(image, "Value", [](const double* x) { return x[0]; });
-  AddArray<vtkDoubleArray>(image, "Other", [](const double* x) { return x[0]; });
-  auto report = MakeReport(image, "Value", grid);
-  ErrorLog log(report);
-  const auto expect = [&report, &log](const char* words)
-  {
-    report->Modified();
-    report->Update();
-    const std::string text = log.TakeOnly();
-    EXPECT_NE(text.find(words), std::string::npos) << text;
-    EXPECT_EQ(report->GetOutput()->GetNumberOfRows(), 0) << words;
-  };
-  const auto choose = [&report](int index, const char* name)
-  { report->SetInputArrayToProcess(index, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name); };
-  choose(0, "absent");
-  expect("does not have the point array");
-  choose(0, "Other");
-  expect("no attribute \"Other\" to compare with; it has: Value");
-  choose(0, "Value");
-  values->SetValue(5, std::numeric_limits<double>::quiet_NaN());
-  expect("at voxel 5");
-  values->SetValue(5, 0.0);
-  choose(1, "absent");
-  expect("no point array \"absent\" of labels");
-  choose(1, "Other");
-  image->GetPointData()->GetArray("Other")->SetTuple1(3, 0.25);
-  expect("the label 0.25");
-  choose(1, "Automatic");
-  grid->GetPointData()->RemoveArray("Weight");
-  expect("Weight");
-  vtkNew<vtkImageData> empty;
-  report->SetInputData(empty);
-  expect("no points");
 }
