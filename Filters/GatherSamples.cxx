@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
+#include <stdexcept>
 
 namespace trivariate
 {
@@ -61,20 +63,15 @@ void Assemble(const T* piece, const PieceHeader& header, int components, const I
 }
 
 //------------------------------------------------------------------------------
-// Sends everybody's numbers to process 0, one piece after another.
+// Sends everybody's numbers to process 0, one piece after another. `all` has room for them there.
 template <typename T>
-std::vector<T> GatherToRoot(
-  const std::vector<T>& own, std::vector<vtkIdType> lengths, vtkMultiProcessController* controller)
+void GatherToRoot(const std::vector<T>& own, std::vector<vtkIdType> lengths,
+  vtkMultiProcessController* controller, std::vector<T>& all)
 {
-  std::vector<vtkIdType> offsets(lengths.size() + 1, 0);
-  for (std::size_t p = 0; p < lengths.size(); ++p)
-  {
-    offsets[p + 1] = offsets[p] + lengths[p];
-  }
-  std::vector<T> all(controller->GetLocalProcessId() == 0 ? offsets.back() : 0);
+  std::vector<vtkIdType> offsets(lengths.size(), 0);
+  std::partial_sum(lengths.begin(), lengths.end() - 1, offsets.begin() + 1);
   controller->GatherV(
     own.data(), all.data(), static_cast<vtkIdType>(own.size()), lengths.data(), offsets.data(), 0);
-  return all;
 }
 }
 
@@ -149,16 +146,41 @@ bool GatherSamples(ImageSamples& samples, std::string& fault, vtkMultiProcessCon
     counts.push_back(masked ? header.Count() : 0);
     lengths.push_back(components * header.Count());
   }
-  const std::vector<double> values = GatherToRoot(samples.Values, lengths, controller);
-  const std::vector<std::uint8_t> mask = GatherToRoot(samples.Mask, counts, controller);
+  // All that process 0 needs, before others send to it: if it fails then, they wait for ever.
+  std::vector<double> values;
+  std::vector<std::uint8_t> mask;
+  int hasRoom = 1;
+  if (me == 0)
+  {
+    try
+    {
+      values.resize(std::accumulate(lengths.begin(), lengths.end(), vtkIdType(0)));
+      mask.resize(std::accumulate(counts.begin(), counts.end(), vtkIdType(0)));
+      // A hole between the pieces stays NaN, which the fit refuses.
+      whole.Values.assign(components * whole.Count(), std::numeric_limits<double>::quiet_NaN());
+      whole.Mask.assign(masked ? whole.Count() : 0, 1);
+    }
+    catch (const std::exception&) // bad_alloc, length_error
+    {
+      hasRoom = 0;
+    }
+  }
+  controller->Broadcast(&hasRoom, 1, 0);
+  if (!hasRoom)
+  {
+    fault = me == 0 ? "Out of memory on the process that gathers the pieces; crop or coarsen the "
+                      "image."
+                    : "";
+    samples = ImageSamples();
+    return false;
+  }
+  GatherToRoot(samples.Values, lengths, controller, values);
+  GatherToRoot(samples.Mask, counts, controller, mask);
   samples = ImageSamples();
   if (me != 0)
   {
     return true;
   }
-  // A hole between the pieces stays NaN, which the fit refuses.
-  whole.Values.assign(components * whole.Count(), std::numeric_limits<double>::quiet_NaN());
-  whole.Mask.assign(masked ? whole.Count() : 0, 1);
   const double* pieceValues = values.data();
   const std::uint8_t* pieceMask = mask.data();
   for (int p = 0; p < processes; ++p)

@@ -56,11 +56,6 @@ std::string NameOf(vtkDataArray* array)
 std::vector<vtkDataArray*> AttributeArrays(
   vtkImageData* image, vtkDataArray* chosen, const std::vector<std::string>& further)
 {
-  if (!chosen)
-  {
-    throw std::invalid_argument("The image does not have the point array that was chosen; use "
-                                "SetInputArrayToProcess(0, ...).");
-  }
   std::vector<vtkDataArray*> arrays = { chosen };
   for (const std::string& name : further)
   {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LabelledImage.h"
 
+#include "FilterRun.h"
 #include "GatherSamples.h"
 #include "MemoryLimit.h"
 
@@ -205,14 +206,19 @@ bool GatherLabels(LabelledImage& image, std::string& fault, vtkMultiProcessContr
 {
   // Doubles hold both kinds of numbers exactly.
   ImageSamples samples;
+  const std::string lack = FaultOf(
+    [&]()
+    {
+      samples.Values.assign(image.Labels.begin(), image.Labels.end());
+      samples.Values.insert(samples.Values.end(), image.Density.begin(), image.Density.end());
+    });
+  fault = fault.empty() ? lack : fault;
   samples.Extent = image.Extent;
   samples.IndexToPhysical = image.IndexToPhysical;
   samples.Attributes = { { "Labels", 1 } };
-  samples.Values.assign(image.Labels.begin(), image.Labels.end());
   if (!image.Density.empty())
   {
     samples.Attributes.push_back({ "Density", 1 });
-    samples.Values.insert(samples.Values.end(), image.Density.begin(), image.Density.end());
   }
   image = LabelledImage();
   if (!GatherSamples(samples, fault, controller))
@@ -247,17 +253,23 @@ std::set<int> CheckSegments(const LabelledImage& image, const std::vector<int>& 
     throw std::invalid_argument(text.str());
   }
   const std::set<int> present = LabelsOf(image.Labels);
-  for (int segment : wanted)
+  CheckPresent(present, wanted);
+  return present;
+}
+
+//------------------------------------------------------------------------------
+void CheckPresent(const std::set<int>& labels, const std::vector<int>& wanted)
+{
+  for (const int segment : wanted)
   {
-    if (present.count(segment) == 0)
+    if (labels.count(segment) == 0)
     {
       throw std::invalid_argument("There is no segment " + std::to_string(segment) + " among the " +
-                                  std::to_string(present.size()) + " labels from " +
-                                  std::to_string(*present.begin()) + " to " +
-                                  std::to_string(*present.rbegin()) + ".");
+                                  std::to_string(labels.size()) + " labels from " +
+                                  std::to_string(*labels.begin()) + " to " +
+                                  std::to_string(*labels.rbegin()) + ".");
     }
   }
-  return present;
 }
 
 //------------------------------------------------------------------------------

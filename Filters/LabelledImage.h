@@ -58,6 +58,9 @@ bool GatherLabels(LabelledImage& image, std::string& fault, vtkMultiProcessContr
 /// wanted segment does not occur.
 std::set<int> CheckSegments(const LabelledImage& image, const std::vector<int>& wanted);
 
+/// Throws std::invalid_argument where a wanted segment is not among the labels.
+void CheckPresent(const std::set<int>& labels, const std::vector<int>& wanted);
+
 /// Throws std::invalid_argument as CheckSegments, and where there is no surface between two
 /// segments, or too much of a surface for the memory.
 void CheckLabels(const LabelledImage& image, const std::vector<int>& wanted);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SegmentationInput.h"
 
-#include "Texture/GreyLevels.h"
 #include "MemoryLimit.h"
+#include "Texture/GreyLevels.h"
 
 #include "vtkArrayDispatch.h"
 #include "vtkDataArray.h"
@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <sstream>
 
@@ -99,17 +98,6 @@ std::string BadValue(vtkImageData* image, vtkDataArray* array, const std::string
 }
 
 //------------------------------------------------------------------------------
-template <typename T>
-std::vector<T> GatherAll(const GatherBytes& gather, const std::vector<T>& mine)
-{
-  std::vector<std::uint8_t> bytes(mine.size() * sizeof(T));
-  std::memcpy(bytes.data(), mine.data(), bytes.size());
-  bytes = gather(bytes);
-  std::vector<T> all(bytes.size() / sizeof(T));
-  std::memcpy(all.data(), bytes.data(), all.size() * sizeof(T));
-  return all;
-}
-
 // The values of the own points that are in no earlier process's piece.
 std::vector<double> CountedValues(const std::vector<double>& values, const Extent& held,
   const Extent& own, const std::vector<Extent>& pieces, int process)
@@ -171,6 +159,64 @@ GreyLevels DecideLevels(const std::vector<double>& counted, const GreyLevelOptio
 }
 }
 
+namespace
+{
+// In place of a length: that a process has given up.
+constexpr vtkIdType Failed = -1, Stopped = -2;
+
+struct AbortedElsewhere : Aborted
+{
+};
+
+std::vector<vtkIdType> GatherLengths(vtkIdType own, vtkMultiProcessController* controller)
+{
+  std::vector<vtkIdType> lengths(controller->GetNumberOfProcesses());
+  controller->AllGather(&own, lengths.data(), 1);
+  if (own >= 0 && *std::min_element(lengths.begin(), lengths.end()) < 0)
+  {
+    if (std::find(lengths.begin(), lengths.end(), Stopped) != lengths.end())
+    {
+      throw AbortedElsewhere();
+    }
+    throw StoppedElsewhere();
+  }
+  return lengths;
+}
+}
+
+//------------------------------------------------------------------------------
+void RunTogether(vtkMultiProcessController* controller, const std::function<void()>& work)
+{
+  if (!controller)
+  {
+    work();
+    return;
+  }
+  try
+  {
+    work();
+    GatherLengths(0, controller); // one may have failed after what it sent last
+  }
+  catch (const StoppedElsewhere&)
+  {
+    throw;
+  }
+  catch (const AbortedElsewhere&)
+  {
+    throw;
+  }
+  catch (const Aborted&)
+  {
+    GatherLengths(Stopped, controller);
+    throw;
+  }
+  catch (...)
+  {
+    GatherLengths(Failed, controller);
+    throw;
+  }
+}
+
 //------------------------------------------------------------------------------
 GatherBytes GatherBytesOf(vtkMultiProcessController* controller)
 {
@@ -182,8 +228,8 @@ GatherBytes GatherBytesOf(vtkMultiProcessController* controller)
   {
     const int processes = controller->GetNumberOfProcesses();
     const vtkIdType length = static_cast<vtkIdType>(mine.size());
-    std::vector<vtkIdType> lengths(processes), offsets(processes, 0);
-    controller->AllGather(&length, lengths.data(), 1);
+    std::vector<vtkIdType> offsets(processes, 0);
+    std::vector<vtkIdType> lengths = GatherLengths(length, controller);
     for (int p = 1; p < processes; ++p)
     {
       offsets[p] = offsets[p - 1] + lengths[p - 1];

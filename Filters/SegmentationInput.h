@@ -7,6 +7,8 @@
 #include "Texture/TextureSegmentation.h"
 
 #include <array>
+#include <exception>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,8 +33,21 @@ struct SegmentationInput
   bool Constant = false;
 };
 
-/// Everybody's bytes on everybody; `controller` null: only one's own.
+/// Everybody's bytes on everybody; `controller` null: only one's own. Throws StoppedElsewhere where
+/// another process has given up in RunTogether.
 GatherBytes GatherBytesOf(vtkMultiProcessController* controller);
+
+struct StoppedElsewhere : std::exception
+{
+  const char* what() const noexcept override { return "stopped by another process"; }
+};
+
+/**
+ * Runs work that gathers bytes on all processes. Where it throws on one of them, that one tells the
+ * others instead of what they wait for, so that it ends on all: they throw Aborted where that one
+ * did, else StoppedElsewhere.
+ */
+void RunTogether(vtkMultiProcessController* controller, const std::function<void()>& work);
 
 /**
  * What of the image is wrong for these options; empty if nothing. `array` is null where the image

@@ -5,6 +5,7 @@
 #include "FrameOutput.h"
 #include "FrameSurface.h"
 #include "LabelledImage.h"
+#include "ListProperty.h"
 #include "MemoryLimit.h"
 #include "SMPExecution.h"
 #include "SegmentSurface.h"
@@ -87,22 +88,17 @@ vtkFrameField::~vtkFrameField()
 //------------------------------------------------------------------------------
 void vtkFrameField::AddSegment(int segment)
 {
-  this->Segments.push_back(segment);
-  this->Modified();
+  AddEntry(this, this->Segments, segment);
 }
 
 void vtkFrameField::ClearSegments()
 {
-  if (!this->Segments.empty())
-  {
-    this->Segments.clear();
-    this->Modified();
-  }
+  ClearEntries(this, this->Segments);
 }
 
 int vtkFrameField::GetSegment(int i) const
 {
-  return i >= 0 && i < this->GetNumberOfSegments() ? this->Segments[i] : -1;
+  return EntryOf(this->Segments, i, -1);
 }
 
 //------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkReconstructionReport.h"
 
+#include "FilterRun.h"
 #include "GatherSamples.h"
 #include "SMPExecution.h"
 #include "SegmentReport.h"
@@ -27,7 +28,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -149,14 +149,7 @@ int vtkReconstructionReport::RequestUpdateExtent(
 void vtkReconstructionReport::ReadImage(vtkImageData* image, ReportInput& input)
 {
   vtkPointData* data = image->GetPointData();
-  const char* chosenName = this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME());
-  vtkDataArray* chosen =
-    chosenName && !*chosenName ? data->GetScalars() : this->GetInputArrayToProcess(0, image);
-  if (!chosen)
-  {
-    throw std::invalid_argument("The image does not have the point array that was chosen; use "
-                                "SetInputArrayToProcess(0, ...).");
-  }
+  vtkDataArray* chosen = ChosenValues(this, image, this->GetInputArrayToProcess(0, image));
   if (chosen->GetNumberOfComponents() != 1)
   {
     throw std::invalid_argument("The array \"" + std::string(chosen->GetName()) + "\" has " +
@@ -211,82 +204,54 @@ int vtkReconstructionReport::RequestData(
     return 1; // the first piece is all
   }
   ReportInput input;
-  std::string fault;
-  try
-  {
-    if (image->GetNumberOfPoints() > 0)
+  std::string fault = FaultOf(
+    [&]()
     {
-      this->ReadImage(image, input);
-    }
-  }
-  catch (const std::exception& error)
-  {
-    fault = error.what();
-  }
-  try
-  {
-    if (gathering)
-    {
-      // A process without voxels does not know the arrays.
-      const int own[4] = { input.ScalarType, input.Labels, input.Parameter, input.Mask };
-      int all[4];
-      this->Controller->AllReduce(own, all, 4, vtkCommunicator::MAX_OP);
-      input.ScalarType = all[0];
-      input.Labels = all[1];
-      input.Parameter = all[2];
-      input.Mask = all[3];
-      const bool sound = GatherSamples(input.Image, fault, this->Controller);
-      if (sound && this->Controller->GetLocalProcessId() > 0)
+      if (image->GetNumberOfPoints() > 0)
       {
-        return 1;
+        this->ReadImage(image, input);
       }
-      if (sound)
-      {
-        vtkWarningMacro("The report is made on one process: the pieces of "
-                        << this->Controller->GetNumberOfProcesses()
-                        << " processes were gathered to process 0.");
-      }
-      else if (fault.empty())
-      {
-        return 0; // another process tells
-      }
-    }
-    if (!fault.empty())
+    });
+  return RunTellingErrors(this, "crop or coarsen the image.",
+    [&]()
     {
-      throw std::invalid_argument(fault);
-    }
-    if (input.Image.Count() == 0)
-    {
-      throw std::invalid_argument("The image has no points.");
-    }
-    CheckFinite(input.Image);
-    input.Model = TSplineFromGrid(grid);
-    input.Attribute = FindAttribute(input.Model, input.Image.Attributes[0].Name);
-    vtkNew<vtkImageData> lattice;
-    lattice->SetExtent(input.Image.Extent.data());
-    lattice->SetOrigin(image->GetOrigin());
-    lattice->SetSpacing(image->GetSpacing());
-    lattice->SetDirectionMatrix(image->GetDirectionMatrix());
-    input.Lattice = lattice;
-    input.Surfaces = vtkPolyData::GetData(inputVector[SURFACES]);
-    input.Rounds = vtkTable::GetData(inputVector[ROUNDS]);
-    ToTable(MakeReport(input, SMPExecution(this)), vtkTable::GetData(outputVector));
-  }
-  catch (const Aborted&)
-  {
-    return 1; // the executive empties the output
-  }
-  catch (const std::bad_alloc&)
-  {
-    vtkErrorMacro("Out of memory; crop or coarsen the image.");
-    return 0;
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
-  return 1;
+      if (gathering)
+      {
+        // A process without voxels does not know the arrays.
+        const int own[4] = { input.ScalarType, input.Labels, input.Parameter, input.Mask };
+        int all[4];
+        this->Controller->AllReduce(own, all, 4, vtkCommunicator::MAX_OP);
+        input.ScalarType = all[0];
+        input.Labels = all[1];
+        input.Parameter = all[2];
+        input.Mask = all[3];
+        const bool sound = GatherSamples(input.Image, fault, this->Controller);
+        if (const auto answer = AnswerElsewhere(
+              this, "The report is made on one process", sound, fault, this->Controller))
+        {
+          return *answer;
+        }
+      }
+      if (!fault.empty())
+      {
+        throw std::invalid_argument(fault);
+      }
+      if (input.Image.Count() == 0)
+      {
+        throw std::invalid_argument("The image has no points.");
+      }
+      CheckFinite(input.Image);
+      input.Model = TSplineFromGrid(grid);
+      input.Attribute = FindAttribute(input.Model, input.Image.Attributes[0].Name);
+      vtkNew<vtkImageData> lattice;
+      lattice->CopyStructure(image);
+      lattice->SetExtent(input.Image.Extent.data());
+      input.Lattice = lattice;
+      input.Surfaces = vtkPolyData::GetData(inputVector[SURFACES]);
+      input.Rounds = vtkTable::GetData(inputVector[ROUNDS]);
+      ToTable(MakeReport(input, SMPExecution(this)), vtkTable::GetData(outputVector));
+      return 1;
+    });
 }
 
 //------------------------------------------------------------------------------

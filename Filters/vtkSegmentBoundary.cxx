@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSegmentBoundary.h"
 
-#include "BoundaryPolyData.h"
-#include "LabelledImage.h"
-#include "SMPExecution.h"
 #include "Boundary/SegmentBoundary.h"
+#include "BoundaryPolyData.h"
+#include "FilterRun.h"
+#include "LabelledImage.h"
+#include "ListProperty.h"
+#include "SMPExecution.h"
 #include "SharedPieces.h"
 
 #include "vtkDataObject.h"
@@ -18,7 +20,6 @@
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -43,22 +44,17 @@ vtkSegmentBoundary::~vtkSegmentBoundary()
 //------------------------------------------------------------------------------
 void vtkSegmentBoundary::AddSegment(int segment)
 {
-  this->Segments.push_back(segment);
-  this->Modified();
+  AddEntry(this, this->Segments, segment);
 }
 
 void vtkSegmentBoundary::ClearSegments()
 {
-  if (!this->Segments.empty())
-  {
-    this->Segments.clear();
-    this->Modified();
-  }
+  ClearEntries(this, this->Segments);
 }
 
 int vtkSegmentBoundary::GetSegment(int i) const
 {
-  return i >= 0 && i < this->GetNumberOfSegments() ? this->Segments[i] : -1;
+  return EntryOf(this->Segments, i, -1);
 }
 
 //------------------------------------------------------------------------------
@@ -138,78 +134,51 @@ int vtkSegmentBoundary::RequestData(
     return 1; // the first piece is all
   }
   LabelledImage image;
-  std::string fault;
-  try
-  {
-    if (input->GetNumberOfPoints() > 0)
+  std::string fault = FaultOf(
+    [&]()
     {
-      vtkDataArray* labels = ChosenLabels(input, this->GetInputArrayToProcess(0, input),
-        this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME()));
-      image = ReadLabels(input, labels, this->DensityArray(input, labels));
-    }
-  }
-  catch (const std::exception& error)
-  {
-    fault = error.what();
-  }
-  try
-  {
-    if (gathering)
-    {
-      const bool sound = GatherLabels(image, fault, this->Controller);
-      const int process = this->Controller->GetLocalProcessId();
-      if (sound && process > 0)
+      if (input->GetNumberOfPoints() > 0)
       {
-        return 1;
+        vtkDataArray* labels = ChosenLabels(input, this->GetInputArrayToProcess(0, input),
+          this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME()));
+        image = ReadLabels(input, labels, this->DensityArray(input, labels));
       }
-      if (sound)
-      {
-        vtkWarningMacro("Surfaces are made on one process: the pieces of "
-                        << this->Controller->GetNumberOfProcesses()
-                        << " processes were gathered to process 0.");
-      }
-      else if (fault.empty())
-      {
-        return 0; // another process tells
-      }
-    }
-    if (!fault.empty())
+    });
+  return RunTellingErrors(this, "crop or coarsen the image.",
+    [&]()
     {
-      throw std::invalid_argument(fault);
-    }
-    if (image.Labels.empty())
-    {
-      throw std::invalid_argument("The image has no points.");
-    }
-    CheckLabels(image, this->Segments);
+      if (gathering)
+      {
+        const bool sound = GatherLabels(image, fault, this->Controller);
+        if (const auto answer = AnswerElsewhere(
+              this, "Surfaces are made on one process", sound, fault, this->Controller))
+        {
+          return *answer;
+        }
+      }
+      if (!fault.empty())
+      {
+        throw std::invalid_argument(fault);
+      }
+      if (image.Labels.empty())
+      {
+        throw std::invalid_argument("The image has no points.");
+      }
+      CheckLabels(image, this->Segments);
 
-    BoundaryOptions options;
-    options.SmoothingIterations = this->SmoothingIterations;
-    options.Density = image.Density.empty() ? nullptr : image.Density.data();
-    const SegmentBoundary boundary =
-      ComputeSegmentBoundary(image.View(), options, SMPExecution(this, 0.0, 0.95));
-    if (boundary.Intersections > 0)
-    {
-      vtkWarningMacro(
-        "The surface meets itself at " << boundary.Intersections << " pairs of triangles.");
-    }
-    BoundaryToPolyData(boundary, image, this->Segments, output);
-  }
-  catch (const Aborted&)
-  {
-    return 1; // the executive empties the output
-  }
-  catch (const std::bad_alloc&)
-  {
-    vtkErrorMacro("Out of memory; crop or coarsen the image.");
-    return 0;
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
-  return 1;
+      BoundaryOptions options;
+      options.SmoothingIterations = this->SmoothingIterations;
+      options.Density = image.Density.empty() ? nullptr : image.Density.data();
+      const SegmentBoundary boundary =
+        ComputeSegmentBoundary(image.View(), options, SMPExecution(this, 0.0, 0.95));
+      if (boundary.Intersections > 0)
+      {
+        vtkWarningMacro(
+          "The surface meets itself at " << boundary.Intersections << " pairs of triangles.");
+      }
+      BoundaryToPolyData(boundary, image, this->Segments, output);
+      return 1;
+    });
 }
 
 //------------------------------------------------------------------------------

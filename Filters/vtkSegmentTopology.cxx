@@ -4,6 +4,7 @@
 
 #include "Domain/WholeSegments.h"
 #include "LabelledImage.h"
+#include "ListProperty.h"
 #include "SMPExecution.h"
 #include "SharedPieces.h"
 
@@ -37,16 +38,7 @@ std::vector<std::int32_t> ChooseSegments(
   const std::vector<std::int32_t>& labels, const std::vector<int>& chosen)
 {
   const std::set<std::int32_t> present(labels.begin(), labels.end());
-  for (const int segment : chosen)
-  {
-    if (present.count(segment) == 0)
-    {
-      throw std::invalid_argument("There is no segment " + std::to_string(segment) + " among the " +
-                                  std::to_string(present.size()) + " labels from " +
-                                  std::to_string(*present.begin()) + " to " +
-                                  std::to_string(*present.rbegin()) + ".");
-    }
-  }
+  CheckPresent(present, chosen);
   std::vector<std::int32_t> segments(chosen.begin(), chosen.end());
   if (segments.empty())
   {
@@ -125,22 +117,17 @@ vtkSegmentTopology::~vtkSegmentTopology()
 //------------------------------------------------------------------------------
 void vtkSegmentTopology::AddSegment(int segment)
 {
-  this->Segments.push_back(segment);
-  this->Modified();
+  AddEntry(this, this->Segments, segment);
 }
 
 void vtkSegmentTopology::ClearSegments()
 {
-  if (!this->Segments.empty())
-  {
-    this->Segments.clear();
-    this->Modified();
-  }
+  ClearEntries(this, this->Segments);
 }
 
 int vtkSegmentTopology::GetSegment(int i) const
 {
-  return i >= 0 && i < this->GetNumberOfSegments() ? this->Segments[i] : -1;
+  return EntryOf(this->Segments, i, -1);
 }
 
 //------------------------------------------------------------------------------

@@ -3,8 +3,10 @@
 #include "vtkTSplineFit.h"
 
 #include "DomainSamples.h"
+#include "FilterRun.h"
 #include "Fit/BlockFit.h"
 #include "GatherSamples.h"
+#include "ListProperty.h"
 #include "SMPExecution.h"
 #include "SharedPieces.h"
 #include "TSplineGrid.h"
@@ -26,7 +28,6 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <new>
 #include <stdexcept>
 
 using namespace trivariate;
@@ -137,18 +138,13 @@ void vtkTSplineFit::AddAttribute(const char* name)
 {
   if (name && *name)
   {
-    this->Attributes.emplace_back(name);
-    this->Modified();
+    AddEntry(this, this->Attributes, std::string(name));
   }
 }
 
 void vtkTSplineFit::ClearAttributes()
 {
-  if (!this->Attributes.empty())
-  {
-    this->Attributes.clear();
-    this->Modified();
-  }
+  ClearEntries(this, this->Attributes);
 }
 
 const char* vtkTSplineFit::GetAttribute(int i) const
@@ -180,16 +176,6 @@ int vtkTSplineFit::FillOutputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkUnstructuredGrid" : "vtkTable");
   return 1;
-}
-
-//------------------------------------------------------------------------------
-// The array of SetInputArrayToProcess(0, ...); the active scalars as long as nothing was chosen,
-// which a proxy says with an empty name.
-vtkDataArray* vtkTSplineFit::ChosenArray(vtkImageData* image)
-{
-  const char* name = this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME());
-  return name && !*name ? image->GetPointData()->GetScalars()
-                        : this->GetInputArrayToProcess(0, image);
 }
 
 //------------------------------------------------------------------------------
@@ -278,75 +264,50 @@ int vtkTSplineFit::RequestData(
   }
   const bool isDomain = this->GetNumberOfInputConnections(1) > 0;
   ImageSamples samples;
-  std::string fault;
-  try
-  {
-    if (input->GetNumberOfPoints() > 0)
+  std::string fault = FaultOf(
+    [&]()
     {
-      std::vector<std::string> further = this->Attributes;
+      if (input->GetNumberOfPoints() > 0)
+      {
+        std::vector<std::string> further = this->Attributes;
+        if (isDomain)
+        {
+          further.insert(further.end(), { ParameterArrayName, ParameterMaskName });
+        }
+        vtkDataArray* chosen = ChosenValues(this, input, this->GetInputArrayToProcess(0, input));
+        samples = ReadSamples(input, chosen, further, this->MaskArray);
+      }
+    });
+  return RunTellingErrors(this,
+    "crop or coarsen the image, or allow fewer than " +
+      std::to_string(this->MaximumNumberOfControlPoints) + " control points.",
+    [&]()
+    {
+      if (gathering)
+      {
+        const bool sound = GatherSamples(samples, fault, this->Controller);
+        if (const auto answer =
+              AnswerElsewhere(this, "The fit is one global solve", sound, fault, this->Controller))
+        {
+          return *answer;
+        }
+      }
+      if (!fault.empty())
+      {
+        throw std::invalid_argument(fault);
+      }
+      CheckExtent(samples);
+
       if (isDomain)
       {
-        further.insert(further.end(), { ParameterArrayName, ParameterMaskName });
+        this->FitDomain(samples, inputVector, output, rounds);
       }
-      samples = ReadSamples(input, this->ChosenArray(input), further, this->MaskArray);
-    }
-  }
-  catch (const std::exception& error)
-  {
-    fault = error.what();
-  }
-  try
-  {
-    if (gathering)
-    {
-      const bool sound = GatherSamples(samples, fault, this->Controller);
-      const int process = this->Controller->GetLocalProcessId();
-      if (sound && process > 0)
+      else
       {
-        return 1;
+        this->FitImage(samples, output, rounds);
       }
-      if (sound)
-      {
-        vtkWarningMacro("The fit is one global solve: the pieces of "
-                        << this->Controller->GetNumberOfProcesses()
-                        << " processes were gathered to process 0.");
-      }
-      else if (fault.empty())
-      {
-        return 0; // another process tells
-      }
-    }
-    if (!fault.empty())
-    {
-      throw std::invalid_argument(fault);
-    }
-    CheckExtent(samples);
-
-    if (isDomain)
-    {
-      this->FitDomain(samples, inputVector, output, rounds);
-    }
-    else
-    {
-      this->FitImage(samples, output, rounds);
-    }
-  }
-  catch (const Aborted&)
-  {
-    return 1; // the executive empties the outputs
-  }
-  catch (const std::bad_alloc&)
-  {
-    vtkErrorMacro("Out of memory; crop or coarsen the image, or allow fewer than "
-                  << this->MaximumNumberOfControlPoints << " control points.");
-    return 0;
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
-  return 1;
+      return 1;
+    });
 }
 
 //------------------------------------------------------------------------------

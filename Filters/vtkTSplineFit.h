@@ -220,8 +220,6 @@ private:
   vtkTSplineFit(const vtkTSplineFit&) = delete;
   void operator=(const vtkTSplineFit&) = delete;
 
-  vtkDataArray* ChosenArray(vtkImageData* image);
-
   void FitImage(trivariate::ImageSamples& samples, vtkUnstructuredGrid* output, vtkTable* rounds);
   void FitDomain(trivariate::ImageSamples& samples, vtkInformationVector** inputVector,
     vtkUnstructuredGrid* output, vtkTable* rounds);

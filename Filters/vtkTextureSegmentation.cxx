@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTextureSegmentation.h"
 
+#include "FilterRun.h"
+#include "ListProperty.h"
 #include "SMPExecution.h"
 #include "SegmentationInput.h"
 #include "SharedPieces.h"
@@ -23,7 +25,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 #include <sstream>
 #include <stdexcept>
 
@@ -178,18 +179,13 @@ void vtkTextureSegmentation::AddTextureAttribute(const char* name)
 {
   if (name && *name)
   {
-    this->TextureAttributes.emplace_back(name);
-    this->Modified();
+    AddEntry(this, this->TextureAttributes, std::string(name));
   }
 }
 
 void vtkTextureSegmentation::ClearTextureAttributes()
 {
-  if (!this->TextureAttributes.empty())
-  {
-    this->TextureAttributes.clear();
-    this->Modified();
-  }
+  ClearEntries(this, this->TextureAttributes);
 }
 
 const char* vtkTextureSegmentation::GetTextureAttribute(int i) const
@@ -287,69 +283,68 @@ int vtkTextureSegmentation::RequestData(
   }
   vtkDataArray* array = this->ChosenArray(input);
   SegmentationOptions options;
-  std::string fault;
-  try
-  {
-    options = this->Options();
-    fault = SegmentationFault(input, array,
-      this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME()), own, whole, options);
-  }
-  catch (const std::exception& error)
-  {
-    fault = error.what();
-  }
-  try
-  {
-    if (AnyFault(fault, gather, process))
+  std::string fault = FaultOf(
+    [&]()
     {
-      if (fault.empty())
+      options = this->Options();
+      const std::string found = SegmentationFault(input, array,
+        this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME()), own, whole, options);
+      if (!found.empty())
       {
-        return 0; // process 0 tells
+        throw std::invalid_argument(found);
       }
-      throw std::invalid_argument(fault);
-    }
-    GreyLevelOptions levels;
-    levels.Count = this->GreyLevels;
-    levels.AutomaticRange = this->AutomaticGreyLevelRange;
-    levels.Range = { this->GreyLevelRange[0], this->GreyLevelRange[1] };
+    });
+  return RunTellingErrors(this, "crop or coarsen the image, or choose fewer attributes.",
+    [&]()
+    {
+      if (AnyFault(fault, gather, process))
+      {
+        if (fault.empty())
+        {
+          return 0; // process 0 tells
+        }
+        throw std::invalid_argument(fault);
+      }
+      GreyLevelOptions levels;
+      levels.Count = this->GreyLevels;
+      levels.AutomaticRange = this->AutomaticGreyLevelRange;
+      levels.Range = { this->GreyLevelRange[0], this->GreyLevelRange[1] };
 
-    const SegmentationInput segmentationInput =
-      ReadSegmentationInput(input, array, own, whole, levels, gather, process);
-    const SegmentationResult result =
-      SegmentByTexture(segmentationInput.Piece, options, gather, SMPExecution(this));
-    output->ShallowCopy(input);
-    if (input->GetNumberOfPoints() > 0)
-    {
-      output->Crop(own.data());
-    }
-    ToOutput(result, segmentationInput.Offset, output);
-    if (process == 0 && segmentationInput.Constant)
-    {
-      vtkWarningMacro("All values are " << segmentationInput.Offset << ": there is one segment.");
-    }
-    else if (process == 0 && result.Segments < this->NumberOfSegments)
-    {
-      vtkWarningMacro("The image has "
-                      << result.Segments
-                      << (result.Segments == 1 ? " segment" : " segments that differ") << ", not "
-                      << this->NumberOfSegments << " as asked for.");
-    }
-  }
-  catch (const Aborted&)
-  {
-    return 1; // the executive empties the output
-  }
-  catch (const std::bad_alloc&)
-  {
-    vtkErrorMacro("Out of memory; crop or coarsen the image, or choose fewer attributes.");
-    return 0;
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
-  return 1;
+      SegmentationInput segmentationInput;
+      SegmentationResult result;
+      try
+      {
+        RunTogether(distributed ? this->Controller : nullptr,
+          [&]()
+          {
+            segmentationInput =
+              ReadSegmentationInput(input, array, own, whole, levels, gather, process);
+            result = SegmentByTexture(segmentationInput.Piece, options, gather, SMPExecution(this));
+          });
+      }
+      catch (const StoppedElsewhere&)
+      {
+        return 0; // the other process tells
+      }
+      output->ShallowCopy(input);
+      if (input->GetNumberOfPoints() > 0)
+      {
+        output->Crop(own.data());
+      }
+      ToOutput(result, segmentationInput.Offset, output);
+      if (process == 0 && segmentationInput.Constant)
+      {
+        vtkWarningMacro("All values are " << segmentationInput.Offset << ": there is one segment.");
+      }
+      else if (process == 0 && result.Segments < this->NumberOfSegments)
+      {
+        vtkWarningMacro("The image has "
+                        << result.Segments
+                        << (result.Segments == 1 ? " segment" : " segments that differ") << ", not "
+                        << this->NumberOfSegments << " as asked for.");
+      }
+      return 1;
+    });
 }
 
 //------------------------------------------------------------------------------

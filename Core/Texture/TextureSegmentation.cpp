@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TextureSegmentation.h"
 
+#include "Boundary/SegmentShells.h"
 #include "InterfacePlacement.h"
 #include "PieceVolume.h"
 #include "SegmentAttributes.h"
-#include "Boundary/SegmentShells.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -322,7 +321,7 @@ private:
         mine.High = std::max(mine.High, *std::max_element(row, row + own[0]));
       });
     Bounds range;
-    for (const Bounds& bounds : this->GatherAll(std::vector<Bounds>{ mine }))
+    for (const Bounds& bounds : GatherAll(this->Gather, std::vector<Bounds>{ mine }))
     {
       range.Low = std::min(range.Low, bounds.Low);
       range.High = std::max(range.High, bounds.High);
@@ -330,7 +329,7 @@ private:
     const double width = static_cast<double>(range.High) - range.Low;
     const double unit = width > 0.0 ? 0x1p30 / width : 0.0;
     const std::vector<PieceBox> boxes =
-      this->GatherAll(std::vector<PieceBox>{ OwnBox(this->Piece) });
+      GatherAll(this->Gather, std::vector<PieceBox>{ OwnBox(this->Piece) });
     std::vector<std::int64_t> sums(256, 0);
     ForOwnRows(this->Piece,
       [&](Index, Index inPiece, Index inVolume)
@@ -347,7 +346,7 @@ private:
           }
         }
       });
-    const std::vector<std::int64_t> all = this->GatherAll(sums);
+    const std::vector<std::int64_t> all = GatherAll(this->Gather, sums);
     std::vector<double> means(256, 0.0);
     for (int l = 0; l < 256; ++l)
     {
@@ -361,17 +360,6 @@ private:
                    : range.Low;
     }
     return means;
-  }
-
-  template <typename T>
-  std::vector<T> GatherAll(const std::vector<T>& mine) const
-  {
-    std::vector<std::uint8_t> bytes(mine.size() * sizeof(T));
-    std::memcpy(bytes.data(), mine.data(), bytes.size());
-    bytes = this->Gather(bytes);
-    std::vector<T> all(bytes.size() / sizeof(T));
-    std::memcpy(all.data(), bytes.data(), all.size() * sizeof(T));
-    return all;
   }
 
   // Mean rows of the sampled voxels of each segment.

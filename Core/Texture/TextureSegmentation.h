@@ -22,6 +22,7 @@
 #include "LabelComponents.h"
 #include "TextureWindow.h"
 
+#include <cstring>
 #include <functional>
 #include <string>
 #include <utility>
@@ -60,6 +61,18 @@ struct SegmentationPiece
 
 /// Bytes of all processes, one after the other in the same order on all.
 using GatherBytes = std::function<std::vector<std::uint8_t>(const std::vector<std::uint8_t>& mine)>;
+
+/// The same for plain values of any type.
+template <typename T>
+std::vector<T> GatherAll(const GatherBytes& gather, const std::vector<T>& mine)
+{
+  std::vector<std::uint8_t> bytes(mine.size() * sizeof(T));
+  std::memcpy(bytes.data(), mine.data(), bytes.size());
+  bytes = gather(bytes);
+  std::vector<T> all(bytes.size() / sizeof(T));
+  std::memcpy(all.data(), bytes.data(), all.size() * sizeof(T));
+  return all;
+}
 
 struct SegmentationResult
 {
