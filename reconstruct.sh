@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # ./reconstruct.sh [VOLUME] [--output DIR] [--array NAME] [--tolerance T] [--control-points N]
-#                  [--segments K] [--domain box|segments|auto]
+#                  [--segments K] [--domain box|segments|auto|FILE]
 #
 # Turns a volume image into a T-spline and writes to DIR what came out of it: model.tspline,
 # resampled.vti, hexes.vtu, bezier.vtu, picture.png and report.json. The first call on Debian 12
@@ -16,11 +16,12 @@
 #   --segments K        also split the volume into K materials by texture and density (0: as many as
 #                       it seems to have), and write segments.vti, boundary.vtp and segments.png;
 #                       and, of segments for which there is a domain of cubes, patches.vtp,
-#                       domain.vtu, and in a box fields.vti and hexmesh.vtu
+#                       domain.vtu, fields.vti and hexmesh.vtu
 #   --domain WHICH      box, the default: one spline over the whole image; segments: a spline for each
 #                       of the K materials over its bounding box, together still one T-spline that
 #                       stands for every voxel; auto: over the cubes of its domain where that is
-#                       more accurate
+#                       more accurate; or a file with the cubes and corners of some segments: a
+#                       domain.vtu, or a .json file (Documentation/UserGuide.md)
 set -euo pipefail
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 export BUILD_DIR=${BUILD_DIR:-$source_dir/build}
@@ -51,8 +52,8 @@ number='^([0-9]+([.][0-9]*)?|[.][0-9]+)([eE][-+]?[0-9]+)?$'
   fail "--control-points is a whole number from 64 to 999999999, not '$control_points'"
 [ -z "$segments" ] || { [[ $segments =~ ^[0-9]{1,2}$ ]] && ((10#$segments <= 64)); } ||
   fail "--segments is a whole number from 0 to 64, not '$segments'"
-[ -z "$domain" ] || [[ $domain =~ ^(box|segments|auto)$ ]] ||
-  fail "--domain is box, segments or auto, not '$domain'"
+[ -z "$domain" ] || [[ $domain =~ ^(box|segments|auto)$ ]] || [ -f "$domain" ] ||
+  fail "--domain is box, segments, auto or a file with cubes and corners, not '$domain'"
 [ -z "$volume" ] || [ -f "$volume" ] || fail "there is no file '$volume'"
 [ -z "$volume" ] || [ -r "$volume" ] || fail "the file '$volume' cannot be read"
 mkdir -p -- "$output" 2>/dev/null || fail "the folder '$output' cannot be made"

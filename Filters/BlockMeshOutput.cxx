@@ -6,6 +6,7 @@
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -144,6 +145,18 @@ void WriteHexahedra(const BlockMesh& mesh, const BlockLabels& labels, vtkPointDa
       });
   }
   cells.AddTo(output->GetCellData());
+}
+
+//------------------------------------------------------------------------------
+void WriteQuality(const BlockMeshReport& report, vtkFieldData* field)
+{
+  const auto inverted = Named<vtkIdTypeArray>("InvertedCells", 2);
+  const vtkIdType counts[2] = { report.Start.Inverted, report.End.Inverted };
+  inverted->InsertNextTypedTuple(counts);
+  field->AddArray(inverted);
+  const auto jacobian = Named<vtkDoubleArray>("ScaledJacobian", 2);
+  jacobian->InsertNextTuple2(report.End.LeastJacobian, report.End.MeanJacobian);
+  field->AddArray(jacobian);
 }
 
 //------------------------------------------------------------------------------

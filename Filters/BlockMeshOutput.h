@@ -4,8 +4,9 @@
 #ifndef BlockMeshOutput_h
 #define BlockMeshOutput_h
 
-#include "Parameter/BlockDomain.h"
+#include "Parameter/BlockMeshing.h"
 
+class vtkFieldData;
 class vtkImageData;
 class vtkPartitionedDataSetCollection;
 class vtkPointData;
@@ -30,6 +31,10 @@ void WriteBlockMesh(const BlockMesh& mesh, const BlockLabels& labels, vtkPointDa
 /// All cells in one grid of common points, with the same arrays but Node and Parameter.
 void WriteHexahedra(const BlockMesh& mesh, const BlockLabels& labels, vtkPointData* attributes,
   vtkUnstructuredGrid* output);
+
+/// InvertedCells (vtkIdType x 2: as interpolated and in the end) and ScaledJacobian (double x 2:
+/// least and mean, in the end).
+void WriteQuality(const BlockMeshReport& report, vtkFieldData* field);
 
 /**
  * A mesh for these blocks: a structured grid for each, in their order. Throws std::invalid_argument

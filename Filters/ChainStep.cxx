@@ -7,6 +7,7 @@
 #include "vtkCommand.h"
 #include "vtkExecutive.h"
 
+#include <chrono>
 #include <stdexcept>
 
 namespace trivariate
@@ -24,13 +25,15 @@ std::string SentenceOf(const std::string& message)
 }
 
 //------------------------------------------------------------------------------
-ChainStep::ChainStep(vtkAlgorithm* step, vtkAlgorithm* chain, double from, double to)
+ChainStep::ChainStep(
+  vtkAlgorithm* step, Chain& chain, double from, double to, const std::string& name)
   : Step(step)
-  , Chain(chain)
+  , Outer(chain)
   , From(from)
   , To(to)
+  , Name(name.empty() ? std::string(step->GetClassName()).substr(3) : name)
 {
-  step->SetContainerAlgorithm(chain);
+  step->SetContainerAlgorithm(chain.Filter);
   this->Listener->SetClientData(this);
   this->Listener->SetCallback(ChainStep::Hear);
   for (const unsigned long event :
@@ -60,11 +63,12 @@ void ChainStep::Hear(vtkObject*, unsigned long event, void* client, void* data)
   if (event == vtkCommand::ProgressEvent)
   {
     const double done = *static_cast<double*>(data);
-    if (self->Chain->GetAbortExecute())
+    vtkAlgorithm* chain = self->Outer.Filter;
+    if (chain->GetAbortExecute())
     {
       return; // the executive says 1 even of a step that was stopped
     }
-    self->Chain->UpdateProgress(self->From + (self->To - self->From) * done);
+    chain->UpdateProgress(self->From + (self->To - self->From) * done);
     return;
   }
   auto& texts = event == vtkCommand::ErrorEvent ? self->ErrorTexts : self->WarningTexts;
@@ -74,8 +78,11 @@ void ChainStep::Hear(vtkObject*, unsigned long event, void* client, void* data)
 //------------------------------------------------------------------------------
 void ChainStep::Run()
 {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
   this->Step->Update();
-  if (this->Chain->CheckAbort() || this->Chain->GetAbortOutput())
+  this->Outer.Seconds[this->Name] += std::chrono::duration<double>(Clock::now() - start).count();
+  if (this->Outer.Filter->CheckAbort() || this->Outer.Filter->GetAbortOutput())
   {
     throw Aborted();
   }
@@ -83,6 +90,6 @@ void ChainStep::Run()
   {
     throw std::runtime_error(this->ErrorTexts.front());
   }
-  this->Chain->UpdateProgress(this->To);
+  this->Outer.Filter->UpdateProgress(this->To);
 }
 }

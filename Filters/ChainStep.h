@@ -10,17 +10,25 @@
 #include "vtkCallbackCommand.h"
 #include "vtkNew.h"
 
+#include <map>
 #include <string>
 #include <vector>
 
 namespace trivariate
 {
+/// The outer filter, and where its time goes.
+struct Chain
+{
+  vtkAlgorithm* Filter;
+  std::map<std::string, double> Seconds; ///< by the name of the step
+};
+
 class ChainStep
 {
 public:
   /// `step` and `chain` must outlive this object; the chain's progress goes from `from` to `to`
-  /// while the step runs.
-  ChainStep(vtkAlgorithm* step, vtkAlgorithm* chain, double from, double to);
+  /// while the step runs. `name` is what its time is counted to; none: its class without "vtk".
+  ChainStep(vtkAlgorithm* step, Chain& chain, double from, double to, const std::string& name = "");
   ~ChainStep();
   ChainStep(const ChainStep&) = delete;
   void operator=(const ChainStep&) = delete;
@@ -36,8 +44,9 @@ private:
   static void Hear(vtkObject* caller, unsigned long event, void* self, void* text);
 
   vtkAlgorithm* Step;
-  vtkAlgorithm* Chain;
+  Chain& Outer;
   double From, To;
+  std::string Name;
   std::vector<std::string> ErrorTexts, WarningTexts;
   vtkNew<vtkCallbackCommand> Listener, Silence;
   std::vector<unsigned long> Tags;

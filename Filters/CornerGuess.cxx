@@ -143,10 +143,4 @@ std::vector<Eigen::Vector3d> CornerGuess::Corners(const Polycube& shape, const E
   }
   return places;
 }
-
-//------------------------------------------------------------------------------
-double CornerGuess::Diagonal() const
-{
-  return BoxOf(this->Mesh).diagonal().norm();
-}
 }

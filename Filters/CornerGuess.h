@@ -40,8 +40,6 @@ public:
    */
   std::vector<Eigen::Vector3d> Corners(const Polycube& shape, const Execution& execution);
 
-  double Diagonal() const;
-
   const SurfaceMesh Mesh;
 
 private:

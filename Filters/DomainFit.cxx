@@ -3,20 +3,24 @@
 #include "DomainFit.h"
 
 #include "ChainStep.h"
+#include "DomainSamples.h"
 #include "SMPExecution.h"
+#include "SegmentPoints.h"
 #include "TSpline/BezierMesh.h"
 #include "TSplineGrid.h"
 #include "TSplinePoints.h"
 #include "vtkFrameField.h"
-#include "vtkPolycubeDomain.h"
-#include "vtkSegmentBoundary.h"
+#include "vtkHexRemesh.h"
 #include "vtkTSplineFit.h"
 #include "vtkVolumeParameterization.h"
 
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
+#include "vtkIdList.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
+#include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -25,6 +29,8 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <stdexcept>
 
 namespace trivariate
@@ -32,71 +38,162 @@ namespace trivariate
 namespace
 {
 // Where the steps end, as shares of their progress.
-constexpr double Bounded = 0.05, LaidOut = 0.2, Framed = 0.3, Parameterized = 0.6;
+constexpr double Framed = 0.25, Parameterized = 0.85;
+
+//------------------------------------------------------------------------------
+// The cells of a polycube that belong to a segment, over the same points.
+vtkNew<vtkUnstructuredGrid> CubesOf(
+  vtkUnstructuredGrid* polycubes, const std::vector<vtkIdType>& cells)
+{
+  vtkNew<vtkUnstructuredGrid> cubes;
+  cubes->SetPoints(polycubes->GetPoints());
+  cubes->GetPointData()->ShallowCopy(polycubes->GetPointData());
+  cubes->GetCellData()->CopyAllocate(polycubes->GetCellData());
+  cubes->Allocate();
+  for (const vtkIdType cell : cells)
+  {
+    vtkNew<vtkIdList> points;
+    polycubes->GetCellPoints(cell, points);
+    cubes->GetCellData()->CopyData(
+      polycubes->GetCellData(), cell, cubes->InsertNextCell(polycubes->GetCellType(cell), points));
+  }
+  return cubes;
 }
 
 //------------------------------------------------------------------------------
-FittedPart FitOverDomain(vtkImageData* image, int label, const SegmentFitOptions& options,
-  vtkAlgorithm* chain, double from, double to)
+// Takes parameters from the space of all blocks to that of some of them, `cells` among all.
+void MoveParameters(vtkImageData* image, const BlockComplex& all, const BlockComplex& own,
+  const std::vector<vtkIdType>& cells)
 {
-  const auto run = [chain, from, to](vtkAlgorithm* algorithm, double begin, double end)
+  std::map<Index, Index> numbers;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    numbers[cells[i]] = static_cast<Index>(i);
+  }
+  vtkDataArray* parameter = image->GetPointData()->GetArray(ParameterArrayName);
+  vtkDataArray* mask = image->GetPointData()->GetArray(ParameterMaskName);
+  for (vtkIdType voxel = 0; voxel < image->GetNumberOfPoints(); ++voxel)
+  {
+    std::array<double, 3> p;
+    parameter->GetTuple(voxel, p.data());
+    const auto block = numbers.find(all.BlockAt(p));
+    if (mask->GetTuple1(voxel) == 0.0 || block == numbers.end())
+    {
+      continue; // of another segment
+    }
+    for (int a = 0; a < 3; ++a)
+    {
+      p[a] += own.Origins[block->second][a] - all.Origins[block->first][a];
+    }
+    parameter->SetTuple(voxel, p.data());
+  }
+}
+}
+
+//------------------------------------------------------------------------------
+FilledDomains FillDomains(vtkImageData* image, vtkPolyData* patches, vtkUnstructuredGrid* polycubes,
+  Chain& chain, double from, double to)
+{
+  const auto run = [&chain, from, to](vtkAlgorithm* algorithm, double begin, double end)
   { ChainStep(algorithm, chain, from + (to - from) * begin, from + (to - from) * end).Run(); };
-  vtkNew<vtkSegmentBoundary> boundary;
-  boundary->SetController(nullptr);
-  boundary->SetInputData(image);
-  boundary->AddSegment(label);
-  run(boundary, 0.0, Bounded);
-
-  vtkNew<vtkPolycubeDomain> domain;
-  domain->SetController(nullptr);
-  domain->SetInputData(boundary->GetOutput());
-  domain->AddSegment(label);
-  run(domain, Bounded, LaidOut);
-
   vtkNew<vtkFrameField> frames;
   frames->SetController(nullptr);
   frames->SetInputData(0, image);
-  frames->SetInputData(1, domain->GetPatches());
-  frames->AddSegment(label);
-  run(frames, LaidOut, Framed);
+  frames->SetInputData(1, patches);
+  run(frames, 0.0, Framed);
 
   vtkNew<vtkVolumeParameterization> parameters;
   parameters->SetController(nullptr);
   parameters->SetInputData(0, frames->GetOutputDataObject(0));
-  parameters->SetInputData(1, domain->GetPatches());
-  parameters->SetInputData(2, domain->GetPolycube());
+  parameters->SetInputData(1, patches);
+  parameters->SetInputData(2, polycubes);
   run(parameters, Framed, Parameterized);
-  vtkDataObject* parameterized = parameters->GetOutputDataObject(0);
-  vtkDataArray* inverted = parameterized->GetFieldData()->GetArray("InvertedCells");
-  if (inverted && inverted->GetComponent(0, 1) > 0.0) // in the end
-  {
-    throw std::runtime_error("Its block mesh has folds.");
-  }
 
-  vtkNew<vtkTSplineFit> fit;
+  vtkNew<vtkHexRemesh> hexahedra;
+  hexahedra->SetInputDataObject(0, image);
+  hexahedra->SetInputDataObject(1, patches);
+  hexahedra->SetInputDataObject(2, polycubes);
+  hexahedra->SetInputDataObject(3, parameters->GetBlocks());
+  run(hexahedra, Parameterized, 1.0);
+
+  FilledDomains domains;
+  domains.Fields = vtkImageData::SafeDownCast(parameters->GetOutputDataObject(0));
+  domains.Polycubes = parameters->GetPolycube();
+  domains.Blocks = parameters->GetBlocks();
+  domains.Hexahedra = hexahedra->GetHexahedra();
+  // The remesher was given cells that are repaired already.
+  domains.Hexahedra->GetFieldData()
+    ->GetArray("InvertedCells")
+    ->SetComponent(
+      0, 0, domains.Fields->GetFieldData()->GetArray("InvertedCells")->GetComponent(0, 0));
+  vtkCellData* cells = domains.Hexahedra->GetCellData();
+  for (vtkIdType cell = 0; cell < domains.Hexahedra->GetNumberOfCells(); ++cell)
+  {
+    const auto segment = static_cast<int>(cells->GetArray("Segment")->GetTuple1(cell));
+    domains.Segments.insert(segment);
+    if (cells->GetArray("ScaledJacobian")->GetTuple1(cell) <= 0.0)
+    {
+      domains.Folded.insert(segment);
+    }
+  }
+  return domains;
+}
+
+//------------------------------------------------------------------------------
+FittedPart RunFit(vtkTSplineFit* fit, const char* mask, int segment, const std::string& step,
+  const SegmentFitOptions& options, Chain& chain, double from, double to)
+{
   fit->SetController(nullptr);
-  fit->SetInputData(0, parameterized);
-  fit->SetInputData(1, parameters->GetPolycube());
-  fit->SetInputData(2, parameters->GetBlocks());
   fit->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, options.Array.c_str());
+  fit->SetMaskArray(mask);
   for (const std::string& name : options.Further)
   {
     fit->AddAttribute(name.c_str());
   }
   fit->SetMaximumNumberOfControlPoints(options.MaximumControlPoints);
   fit->SetRMSTolerance(options.RmsTolerance);
-  run(fit, Parameterized, 1.0);
+  ChainStep(fit, chain, from, to, step).Run();
   FittedPart part;
   part.Model = TSplineFromGrid(fit->GetOutput());
-  part.Model.Segment.assign(part.Model.Spline.Size(), label);
+  part.Model.Segment.assign(part.Model.Spline.Size(), segment);
   part.Rounds = vtkTable::SafeDownCast(fit->GetOutputDataObject(1));
   return part;
 }
 
 //------------------------------------------------------------------------------
+FittedPart FitOverDomain(const FilledDomains& domains, vtkImageData* image, const char* mask,
+  int segment, const SegmentFitOptions& options, Chain& chain, double from, double to)
+{
+  if (domains.Folded.count(segment) > 0)
+  {
+    throw std::runtime_error("Its block mesh has folds.");
+  }
+  vtkDataArray* owners = domains.Polycubes->GetCellData()->GetArray("Segment");
+  std::vector<vtkIdType> cells;
+  vtkNew<vtkPartitionedDataSetCollection> blocks;
+  for (vtkIdType cell = 0; cell < domains.Polycubes->GetNumberOfCells(); ++cell)
+  {
+    if (static_cast<int>(owners->GetTuple1(cell)) == segment)
+    {
+      blocks->SetPartition(static_cast<unsigned int>(cells.size()), 0,
+        domains.Blocks->GetPartition(static_cast<unsigned int>(cell), 0));
+      cells.push_back(cell);
+    }
+  }
+  const vtkNew<vtkUnstructuredGrid> cubes = CubesOf(domains.Polycubes, cells);
+  MoveParameters(image, ReadBlocks(domains.Polycubes), ReadBlocks(cubes), cells);
+
+  vtkNew<vtkTSplineFit> fit;
+  fit->SetInputData(0, image);
+  fit->SetInputData(1, cubes);
+  fit->SetInputData(2, blocks);
+  return RunFit(fit, mask, segment, "FitOverCubes", options, chain, from, to);
+}
+
+//------------------------------------------------------------------------------
 PartErrors MeasurePart(vtkImageData* image, const std::string& array, const TSplineModel& model,
-  const std::vector<vtkIdType>& voxels, vtkAlgorithm* chain, double from, double to)
+  const std::vector<vtkIdType>& voxels, Chain& chain, double from, double to)
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -107,9 +204,9 @@ PartErrors MeasurePart(vtkImageData* image, const std::string& array, const TSpl
   }
   vtkNew<vtkPolyData> cloud;
   cloud->SetPoints(points);
-  const Execution execution = SMPExecution(chain, from, to);
+  const Execution execution = SMPExecution(chain.Filter, from, to);
   const BezierMesh mesh(model.Spline, execution.Part(0.0, 0.1));
-  FillPoints({ model, mesh, false, false }, cloud, execution.Part(0.1, 1.0));
+  FillPoints({ model, mesh, false, false, ReachIn(image) }, cloud, execution.Part(0.1, 1.0));
   vtkDataArray* wanted = image->GetPointData()->GetArray(array.c_str());
   vtkDataArray* values = cloud->GetPointData()->GetArray(array.c_str());
   vtkDataArray* found = cloud->GetPointData()->GetArray("vtkValidPointMask");

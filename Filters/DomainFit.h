@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * The T-spline of one segment over its domain of cubes.
+ * The T-splines of segments over their domains of cubes.
  */
 #ifndef DomainFit_h
 #define DomainFit_h
@@ -10,17 +10,58 @@
 
 #include "vtkSmartPointer.h"
 
+#include <set>
 #include <vector>
 
+class vtkPartitionedDataSetCollection;
+class vtkPolyData;
+class vtkTSplineFit;
 class vtkTable;
+class vtkUnstructuredGrid;
 
 namespace trivariate
 {
+/// Frames, parameters and hexahedra of all segments with a domain.
+struct FilledDomains
+{
+  vtkSmartPointer<vtkImageData> Fields;           ///< output 0 of vtkVolumeParameterization,
+  vtkSmartPointer<vtkUnstructuredGrid> Polycubes; ///< its output 1
+  vtkSmartPointer<vtkPartitionedDataSetCollection> Blocks; ///< and its output 2
+  /// Output 1 of vtkHexRemesh, with the field data InvertedCells (before and after repair) and
+  /// ScaledJacobian (least and mean).
+  vtkSmartPointer<vtkUnstructuredGrid> Hexahedra;
+  std::set<int> Segments; ///< that have a domain
+  std::set<int> Folded;   ///< those with an inverted hexahedron
+};
+
+/**
+ * What the filters vtkFrameField, vtkVolumeParameterization and vtkHexRemesh make of patches and
+ * polycubes, with their defaults. Throws as ChainStep does.
+ */
+FilledDomains FillDomains(vtkImageData* image, vtkPolyData* patches, vtkUnstructuredGrid* polycubes,
+  Chain& chain, double from, double to);
+
 struct FittedPart
 {
   TSplineModel Model;
   vtkSmartPointer<vtkTable> Rounds;
 };
+
+/**
+ * Runs a fit that has its inputs, for the voxels that `mask` names and as the options want it. Its
+ * time is that of the `step`.
+ * Throws as ChainStep does.
+ */
+FittedPart RunFit(vtkTSplineFit* fit, const char* mask, int segment, const std::string& step,
+  const SegmentFitOptions& options, Chain& chain, double from, double to);
+
+/**
+ * One segment over its blocks alone. `image` has the arrays to fit, Parameter and ParameterMask of
+ * the domains, and a mask of the voxels that count; its Parameter is changed to that of the blocks
+ * alone. Throws as ChainStep does, and std::runtime_error where the segment is folded.
+ */
+FittedPart FitOverDomain(const FilledDomains& domains, vtkImageData* image, const char* mask,
+  int segment, const SegmentFitOptions& options, Chain& chain, double from, double to);
 
 /// How a spline stands for some voxels by its inverse map.
 struct PartErrors
@@ -29,17 +70,9 @@ struct PartErrors
   std::vector<vtkIdType> Missed; ///< voxels that were not found
 };
 
-/**
- * Surface, cubes, frames, parameters and fit for the voxels of `label` in the point array Segment,
- * with the defaults of the filters for these steps. Throws as ChainStep does, and
- * std::runtime_error where the block mesh stays folded.
- */
-FittedPart FitOverDomain(vtkImageData* image, int label, const SegmentFitOptions& options,
-  vtkAlgorithm* chain, double from, double to);
-
 /// The errors of a spline of one segment at voxels of an image.
 PartErrors MeasurePart(vtkImageData* image, const std::string& array, const TSplineModel& model,
-  const std::vector<vtkIdType>& voxels, vtkAlgorithm* chain, double from, double to);
+  const std::vector<vtkIdType>& voxels, Chain& chain, double from, double to);
 }
 
 #endif

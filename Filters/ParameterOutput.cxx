@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ParameterOutput.h"
 
+#include "BlockMeshOutput.h"
+
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
-#include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkIntArray.h"
@@ -78,11 +79,7 @@ Eigen::Vector3d LengthsOf(const BlockMesh& mesh, Index block)
 
 void AddFieldData(const ParameterDomain& domain, vtkFieldData* fields)
 {
-  const CellQuality &start = domain.Report.Start, &end = domain.Report.End;
-  fields->AddArray(Copied<vtkIdTypeArray>(
-    "InvertedCells", 2, std::vector<vtkIdType>{ start.Inverted, end.Inverted }));
-  fields->AddArray(Copied<vtkDoubleArray>(
-    "ScaledJacobian", 2, std::vector<double>{ end.LeastJacobian, end.MeanJacobian }));
+  WriteQuality(domain.Report, fields);
   std::vector<int> segments, iterations;
   std::vector<double> residuals, deviations, lengths;
   for (const auto& [segment, solved] : domain.Solved)

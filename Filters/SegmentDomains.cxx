@@ -5,6 +5,8 @@
 #include "Domain/InnerCorners.h"
 #include "Domain/InnerPath.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -231,6 +233,30 @@ SurfacePiece OnlyPieceOf(const LabelledSurface& surface, int segment)
       "Its surface has " + std::to_string(pieces.size()) + " pieces; corners are picked on one.");
   }
   return std::move(pieces[0]);
+}
+
+//------------------------------------------------------------------------------
+void AddDomainFromCorners(const LabelledSurface& surface, int segment, const Polycube& cubes,
+  const std::vector<Eigen::Vector3d>& picked, double snapLimit, const DomainSettings& settings,
+  const Execution& execution, DomainSet& set)
+{
+  const SurfacePiece piece = OnlyPieceOf(surface, segment);
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : piece.Mesh.Points)
+  {
+    box.extend(point);
+  }
+  SegmentDomain domain = DomainFromCorners(
+    piece.Mesh, cubes, picked, execution.Part(0.0, 0.75), snapLimit * box.diagonal().norm());
+  DomainBlocks blocks = BlocksOf(domain, settings, execution.Part(0.75, 1.0));
+  const auto outer = static_cast<Index>(set.Surfaces.size());
+  set.Surfaces.push_back({ std::move(domain), piece.Origins });
+  set.Segments.push_back({ segment, outer, -1, std::move(blocks) });
+  const std::string remark = RemarkOn(set.Segments.back());
+  if (!remark.empty())
+  {
+    set.Remarks.push_back(remark);
+  }
 }
 
 //------------------------------------------------------------------------------

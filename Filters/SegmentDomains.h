@@ -56,6 +56,15 @@ DomainBlocks BlocksOf(
 DomainSet FindDomains(const LabelledSurface& surface, const std::vector<int>& segments,
   const DomainSettings& settings, const Execution& execution);
 
+/**
+ * Adds the domain of a segment whose surface is one piece, with the corners of `cubes` at or near
+ * the picked places, at most `snapLimit` times the surface's diagonal away. Throws as OnlyPieceOf
+ * and DomainFromCorners.
+ */
+void AddDomainFromCorners(const LabelledSurface& surface, int segment, const Polycube& cubes,
+  const std::vector<Eigen::Vector3d>& picked, double snapLimit, const DomainSettings& settings,
+  const Execution& execution, DomainSet& set);
+
 /// A sentence on blocks that are inverted; empty where there are none.
 std::string RemarkOn(const BlocksOfSegment& segment);
 

@@ -4,6 +4,7 @@
 
 #include "ChainStep.h"
 #include "DomainFit.h"
+#include "DomainSamples.h"
 #include "Fit/PointShares.h"
 #include "SMPExecution.h"
 #include "TSplineGrid.h"
@@ -100,124 +101,151 @@ std::vector<Part> FindParts(
 }
 
 //------------------------------------------------------------------------------
-// The arrays in the part's box, and a mask of its voxels.
-vtkSmartPointer<vtkImageData> Crop(vtkImageData* image, const Part& part, std::int32_t number,
+// Adds what an array has in a box of the image to the image that is the box.
+void AddCropped(vtkImageData* image, vtkDataArray* whole, vtkImageData* box)
+{
+  const auto array = vtk::TakeSmartPointer(whole->NewInstance());
+  array->SetName(whole->GetName());
+  array->SetNumberOfComponents(whole->GetNumberOfComponents());
+  array->SetNumberOfTuples(box->GetNumberOfPoints());
+  const int* e = box->GetExtent();
+  const vtkIdType row = e[1] - e[0] + 1;
+  vtkIdType to = 0;
+  for (int k = e[4]; k <= e[5]; ++k)
+  {
+    for (int j = e[2]; j <= e[3]; ++j, to += row)
+    {
+      int ijk[3] = { e[0], j, k };
+      array->InsertTuples(to, row, image->ComputePointId(ijk), whole);
+    }
+  }
+  box->GetPointData()->AddArray(array);
+}
+
+//------------------------------------------------------------------------------
+// A part with the voxels that are its own.
+struct Cut
+{
+  vtkSmartPointer<vtkImageData> Image; // the part's box with the arrays to fit, and the mask
+  std::vector<vtkIdType> Voxels;       // of the whole image
+};
+
+Cut CutOut(vtkImageData* image, const Part& part, std::int32_t number,
   const std::vector<std::int32_t>& partOf, const SegmentFitOptions& options)
 {
-  auto cropped = vtkSmartPointer<vtkImageData>::New();
-  cropped->SetOrigin(image->GetOrigin());
-  cropped->SetSpacing(image->GetSpacing());
-  cropped->SetDirectionMatrix(image->GetDirectionMatrix());
-  cropped->SetExtent(const_cast<int*>(part.Box.data()));
-  const vtkIdType row = part.Box[1] - part.Box[0] + 1;
-  vtkNew<vtkUnsignedCharArray> mask;
-  mask->SetName(MaskName);
-  mask->SetNumberOfValues(cropped->GetNumberOfPoints());
-  std::vector<std::string> names = options.Further;
-  names.insert(names.begin(), options.Array);
-  for (const std::string& name : names)
-  {
-    vtkDataArray* whole = image->GetPointData()->GetArray(name.c_str());
-    const auto array = vtk::TakeSmartPointer(whole->NewInstance());
-    array->SetName(name.c_str());
-    array->SetNumberOfComponents(whole->GetNumberOfComponents());
-    array->SetNumberOfTuples(cropped->GetNumberOfPoints());
-    cropped->GetPointData()->AddArray(array);
-  }
-  vtkIdType to = 0;
-  for (int k = part.Box[4]; k <= part.Box[5]; ++k)
-  {
-    for (int j = part.Box[2]; j <= part.Box[3]; ++j, to += row)
-    {
-      int ijk[3] = { part.Box[0], j, k };
-      const vtkIdType from = image->ComputePointId(ijk);
-      for (const std::string& name : names)
-      {
-        cropped->GetPointData()
-          ->GetArray(name.c_str())
-          ->InsertTuples(to, row, from, image->GetPointData()->GetArray(name.c_str()));
-      }
-      for (vtkIdType i = 0; i < row; ++i)
-      {
-        mask->SetValue(to + i, partOf[from + i] == number);
-      }
-    }
-  }
-  cropped->GetPointData()->AddArray(mask);
-  return cropped;
-}
-
-//------------------------------------------------------------------------------
-FittedPart FitOverBox(vtkImageData* image, const Part& part, std::int32_t number,
-  const std::vector<std::int32_t>& partOf, const SegmentFitOptions& options, vtkAlgorithm* chain,
-  double from, double to)
-{
-  vtkNew<vtkTSplineFit> fit;
-  fit->SetController(nullptr);
-  fit->SetInputData(Crop(image, part, number, partOf, options));
-  fit->SetInputArrayToProcess(
-    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, options.Array.c_str());
-  fit->SetMaskArray(MaskName);
+  Cut cut{ vtkSmartPointer<vtkImageData>::New(), {} };
+  cut.Image->SetOrigin(image->GetOrigin());
+  cut.Image->SetSpacing(image->GetSpacing());
+  cut.Image->SetDirectionMatrix(image->GetDirectionMatrix());
+  cut.Image->SetExtent(const_cast<int*>(part.Box.data()));
+  AddCropped(image, image->GetPointData()->GetArray(options.Array.c_str()), cut.Image);
   for (const std::string& name : options.Further)
   {
-    fit->AddAttribute(name.c_str());
+    AddCropped(image, image->GetPointData()->GetArray(name.c_str()), cut.Image);
   }
-  fit->SetRMSTolerance(options.RmsTolerance);
-  fit->SetMaximumNumberOfControlPoints(options.MaximumControlPoints);
-  ChainStep(fit, chain, from, to).Run();
-  FittedPart fitted;
-  fitted.Model = TSplineFromGrid(fit->GetOutput());
-  fitted.Model.Segment.assign(fitted.Model.Spline.Size(), part.Label);
-  fitted.Rounds = vtkTable::SafeDownCast(fit->GetOutputDataObject(1));
-  return fitted;
+  vtkNew<vtkUnsignedCharArray> mask;
+  mask->SetName(MaskName);
+  mask->Allocate(cut.Image->GetNumberOfPoints());
+  for (int k = part.Box[4]; k <= part.Box[5]; ++k)
+  {
+    for (int j = part.Box[2]; j <= part.Box[3]; ++j)
+    {
+      int ijk[3] = { part.Box[0], j, k };
+      vtkIdType voxel = image->ComputePointId(ijk);
+      for (int i = part.Box[0]; i <= part.Box[1]; ++i, ++voxel)
+      {
+        mask->InsertNextValue(partOf[voxel] == number);
+        if (partOf[voxel] == number)
+        {
+          cut.Voxels.push_back(voxel);
+        }
+      }
+    }
+  }
+  cut.Image->GetPointData()->AddArray(mask);
+  return cut;
 }
 
 //------------------------------------------------------------------------------
-// Puts a fit over a domain in place of that over the box if it is better; otherwise says why not.
-// Voxels that it misses go to part 0.
-std::string TryDomain(vtkImageData* image, const Part& part, std::int32_t number,
-  const SegmentFitOptions& options, vtkAlgorithm* chain, double from, double to,
-  std::vector<std::int32_t>& partOf, FittedPart& fitted)
+FittedPart FitOverBox(const Cut& cut, const Part& part, const SegmentFitOptions& options,
+  Chain& chain, double from, double to)
 {
-  std::vector<vtkIdType> voxels;
-  for (std::size_t voxel = 0; voxel < partOf.size(); ++voxel)
+  vtkNew<vtkTSplineFit> fit;
+  fit->SetInputData(cut.Image);
+  return RunFit(fit, MaskName, part.Label, "FitOverBox", options, chain, from, to);
+}
+
+//------------------------------------------------------------------------------
+// A fit over a domain, or the reason why there is none: empty if there is.
+std::string FitOverCubes(const Cut& cut, const Part& part, const SegmentFitOptions& options,
+  Chain& chain, double from, double to, FittedPart& fitted)
+{
+  vtkImageData* fields = options.Domains->Fields;
+  for (const char* name : { ParameterArrayName, ParameterMaskName })
   {
-    if (partOf[voxel] == number)
-    {
-      voxels.push_back(static_cast<vtkIdType>(voxel));
-    }
+    AddCropped(fields, fields->GetPointData()->GetArray(name), cut.Image);
   }
-  FittedPart aligned;
-  const double middle = from + 0.9 * (to - from);
   try
   {
-    aligned = FitOverDomain(image, part.Label, options, chain, from, middle);
+    fitted =
+      FitOverDomain(*options.Domains, cut.Image, MaskName, part.Label, options, chain, from, to);
   }
   catch (const std::runtime_error& reason)
   {
     return reason.what();
   }
-  const PartErrors box =
-    MeasurePart(image, options.Array, fitted.Model, voxels, chain, middle, middle);
-  const PartErrors errors =
-    MeasurePart(image, options.Array, aligned.Model, voxels, chain, middle, to);
-  const double all = static_cast<double>(voxels.size());
-  const double missed = static_cast<double>(errors.Missed.size());
-  if (missed > MostMissed * all)
-  {
-    return "the spline over its cubes misses " + std::to_string(errors.Missed.size()) + " of " +
-           std::to_string(voxels.size()) + " voxels.";
-  }
-  if (errors.Squares / (all - missed) >= box.Squares / all)
-  {
-    return "with as many control points that is more accurate than its cubes.";
-  }
-  for (const vtkIdType voxel : errors.Missed)
-  {
-    partOf[voxel] = 0;
-  }
-  fitted = std::move(aligned);
   return "";
+}
+
+//------------------------------------------------------------------------------
+// The fit over the box, and `why` it is that one; or that over the cubes if it is better, and the
+// voxels that it misses, which are those of part 0 then.
+FittedPart FitPart(vtkImageData* image, const Part& part, std::int32_t number,
+  const SegmentFitOptions& options, Chain& chain, double from, double to,
+  std::vector<std::int32_t>& partOf, std::string& why)
+{
+  const Cut cut = CutOut(image, part, number, partOf, options);
+  const bool hasDomain = number > 0 && options.Domains->Segments.count(part.Label) > 0;
+  const double boxed = hasDomain ? from + ShareOfBox * (to - from) : to;
+  const double aligned = to - 0.1 * (to - from);
+  if (!hasDomain)
+  {
+    return FitOverBox(cut, part, options, chain, from, boxed);
+  }
+  FittedPart box, cubes;
+  if (options.Compared)
+  {
+    box = FitOverBox(cut, part, options, chain, from, boxed);
+  }
+  why = FitOverCubes(cut, part, options, chain, boxed, aligned, cubes);
+  if (why.empty())
+  {
+    const auto all = static_cast<double>(cut.Voxels.size());
+    const PartErrors errors =
+      MeasurePart(image, options.Array, cubes.Model, cut.Voxels, chain, aligned, to);
+    const auto missed = static_cast<double>(errors.Missed.size());
+    if (missed > MostMissed * all)
+    {
+      why = "the spline over its cubes misses " + std::to_string(errors.Missed.size()) + " of " +
+            std::to_string(cut.Voxels.size()) + " voxels.";
+    }
+    else if (options.Compared &&
+             errors.Squares / (all - missed) >=
+               MeasurePart(image, options.Array, box.Model, cut.Voxels, chain, to, to).Squares /
+                 all)
+    {
+      why = "with as many control points that is more accurate than its cubes.";
+    }
+    else
+    {
+      for (const vtkIdType voxel : errors.Missed)
+      {
+        partOf[voxel] = 0;
+      }
+      return cubes;
+    }
+  }
+  return options.Compared ? box : FitOverBox(cut, part, options, chain, to, to);
 }
 
 //------------------------------------------------------------------------------
@@ -255,7 +283,7 @@ void AddRounds(vtkTable* rounds, std::int32_t segment, vtkTable* all)
 
 //------------------------------------------------------------------------------
 TSplineModel FitSegments(vtkImageData* image, const SegmentFitOptions& options, vtkTable* rounds,
-  std::vector<std::string>& why, vtkAlgorithm* chain, double from, double to)
+  std::vector<std::string>& why, Chain& chain, double from, double to)
 {
   vtkDataArray* values = image->GetPointData()->GetArray(options.Array.c_str());
   std::vector<std::int32_t> partOf;
@@ -270,7 +298,7 @@ TSplineModel FitSegments(vtkImageData* image, const SegmentFitOptions& options, 
     int size[3];
     image->GetDimensions(size);
     shares = PointShares({ size[0], size[1], size[2] }, copy.data(), partOf,
-      static_cast<int>(parts.size()), SMPExecution(chain, from, from + ShareOfShares));
+      static_cast<int>(parts.size()), SMPExecution(chain.Filter, from, from + ShareOfShares));
   }
   double low = parts.front().Low, high = parts.front().High;
   for (const Part& part : parts)
@@ -300,20 +328,14 @@ TSplineModel FitSegments(vtkImageData* image, const SegmentFitOptions& options, 
     const double range = parts[p].High - parts[p].Low;
     own.RmsTolerance =
       range > 0.0 ? std::min(100.0, options.RmsTolerance * (high - low) / range) : 0.0;
-    const bool tries = options.OverDomains && p > 0;
     const double begin = from + ShareOfShares + (to - from - ShareOfShares) * done;
     const double end = begin + (to - from - ShareOfShares) * shares[p];
-    const double middle = tries ? begin + ShareOfBox * (end - begin) : end;
-    fitted[p] = FitOverBox(image, parts[p], number, partOf, own, chain, begin, middle);
-    if (tries)
+    std::string reason;
+    fitted[p] = FitPart(image, parts[p], number, own, chain, begin, end, partOf, reason);
+    if (!reason.empty())
     {
-      const std::string reason =
-        TryDomain(image, parts[p], number, own, chain, middle, end, partOf, fitted[p]);
-      if (!reason.empty())
-      {
-        why.push_back("Segment " + std::to_string(parts[p].Label) +
-                      " is fitted over its bounding box: " + reason);
-      }
+      why.push_back("Segment " + std::to_string(parts[p].Label) +
+                    " is fitted over its bounding box: " + reason);
     }
     done += shares[p];
     left -= static_cast<double>(fitted[p].Model.Spline.Size());
@@ -326,7 +348,7 @@ TSplineModel FitSegments(vtkImageData* image, const SegmentFitOptions& options, 
     AddRounds(fitted[p].Rounds, parts[p].Label, rounds);
   }
   vtkDataArray* labels = image->GetPointData()->GetArray("Segment");
-  for (vtkIdType voxel = 0; options.OverDomains && voxel < image->GetNumberOfPoints(); ++voxel)
+  for (vtkIdType voxel = 0; voxel < image->GetNumberOfPoints(); ++voxel)
   {
     labels->SetTuple1(voxel, parts[partOf[voxel]].Label);
   }

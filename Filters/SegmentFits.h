@@ -11,26 +11,30 @@
 #include <string>
 #include <vector>
 
-class vtkAlgorithm;
 class vtkImageData;
 class vtkTable;
 
 namespace trivariate
 {
+struct Chain;
+struct FilledDomains;
+
 struct SegmentFitOptions
 {
   std::string Array;                ///< point array to fit
   std::vector<std::string> Further; ///< and those beside it
   int MaximumControlPoints = 0;     ///< of all segments together
   double RmsTolerance = 0.0;        ///< percent of the array's range over the whole image; 0: none
-  bool OverDomains = false;         ///< whether domains of cubes are tried
+  const FilledDomains* Domains = nullptr; ///< of cubes; needed
+  bool Compared = true; ///< whether a fit over a domain must be better than that over the box
 };
 
 /**
  * Fits the voxels of each label in the point array Segment over the label's bounding box, the
- * others masked; and, if wanted, all but the lowest label also over a domain of cubes with as many
- * control points. The better one by the round trip is kept, and `why` says for each label why it is
- * the box. Voxels that the spline over a domain misses get the lowest label.
+ * others masked; and those with a domain also over its cubes with as many control points. The
+ * better one by the round trip is kept, or where they are not compared that over the cubes if it
+ * misses few voxels; `why` says for each label with a domain why it is the box. Voxels that the
+ * spline over a domain misses get the lowest label.
  *
  * Control points are shared out by PointShares; what a segment leaves when it meets the tolerance
  * goes to those after it, those with small shares first. The rounds of all fits go to the table,
@@ -38,7 +42,7 @@ struct SegmentFitOptions
  * Throws as ChainStep does.
  */
 TSplineModel FitSegments(vtkImageData* image, const SegmentFitOptions& options, vtkTable* rounds,
-  std::vector<std::string>& why, vtkAlgorithm* chain, double from, double to);
+  std::vector<std::string>& why, Chain& chain, double from, double to);
 }
 
 #endif

@@ -22,26 +22,35 @@ inline bool ArePiecesShared(
            controller->GetNumberOfProcesses();
 }
 
+/// Asks a source that has no extent for all of its data.
+inline void RequestAll(vtkInformation* inInfo)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+}
+
 /// Asks a source for the piece that is wanted here where pieces are brought together, else for all.
 inline void RequestPiece(
   vtkInformation* inInfo, vtkInformationVector* outputVector, bool piecesAreShared)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
-  vtkInformation* outInfo = outputVector->GetInformationObject(0);
-  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-  inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(),
-    piecesAreShared ? outInfo->Get(Pipeline::UPDATE_PIECE_NUMBER()) : 0);
-  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(),
-    piecesAreShared ? outInfo->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) : 1);
+  RequestAll(inInfo);
+  if (piecesAreShared)
+  {
+    vtkInformation* outInfo = outputVector->GetInformationObject(0);
+    inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), outInfo->Get(Pipeline::UPDATE_PIECE_NUMBER()));
+    inInfo->Set(
+      Pipeline::UPDATE_NUMBER_OF_PIECES(), outInfo->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()));
+  }
 }
 
 /// Asks an image's source for all of it.
 inline void RequestWholeImage(vtkInformation* inInfo)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
-  inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
-  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  RequestAll(inInfo);
   inInfo->Set(Pipeline::UPDATE_EXTENT(), inInfo->Get(Pipeline::WHOLE_EXTENT()), 6);
 }
 }

@@ -4,9 +4,11 @@
 
 #include "BlockMeshOutput.h"
 #include "DomainInput.h"
+#include "FilterRun.h"
 #include "Parameter/BlockMeshing.h"
 #include "SMPExecution.h"
 
+#include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -19,7 +21,6 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -89,25 +90,12 @@ int vtkHexRemesh::RequestData(
   {
     return 1;
   }
-  try
-  {
-    this->Remesh(inputVector, outputVector);
-  }
-  catch (const Aborted&)
-  {
-    return 1; // the executive empties the outputs
-  }
-  catch (const std::bad_alloc&)
-  {
-    vtkErrorMacro("Out of memory; choose a larger EdgeLength.");
-    return 0;
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
-  return 1;
+  return RunTellingErrors(this, "choose a larger EdgeLength.",
+    [&]()
+    {
+      this->Remesh(inputVector, outputVector);
+      return 1;
+    });
 }
 
 //------------------------------------------------------------------------------
@@ -158,7 +146,9 @@ void vtkHexRemesh::Remesh(vtkInformationVector** inputVector, vtkInformationVect
   const BlockLabels labels{ domain.Segments, input.Groups };
   WriteBlockMesh(
     mesh, labels, attributes, vtkPartitionedDataSetCollection::GetData(outputVector, 0));
-  WriteHexahedra(mesh, labels, attributes, vtkUnstructuredGrid::GetData(outputVector, 1));
+  vtkUnstructuredGrid* hexahedra = vtkUnstructuredGrid::GetData(outputVector, 1);
+  WriteHexahedra(mesh, labels, attributes, hexahedra);
+  WriteQuality(report, hexahedra->GetFieldData());
 }
 
 //------------------------------------------------------------------------------

@@ -4,6 +4,8 @@
 
 #include "CornerGuess.h"
 #include "DomainOutput.h"
+#include "FilterRun.h"
+#include "ListProperty.h"
 #include "SMPExecution.h"
 #include "SegmentDomains.h"
 #include "SegmentSurface.h"
@@ -21,7 +23,6 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -77,23 +78,15 @@ struct vtkPolycubeDomain::Internals
   DomainSet ByHand(const LabelledSurface& surface, int segment, const DomainSettings& settings,
     vtkPolycubeDomain* self, const std::vector<Eigen::Vector3d>& picked)
   {
-    const SurfacePiece piece = OnlyPieceOf(surface, segment);
+    OnlyPieceOf(surface, segment); // or there is no guess
     CornerGuess& guess = *this->Guess;
     const Polycube shape =
       guess.Shape(self->NumberOfCubes, self->SwitchedOffCubes, SMPExecution(self, 0.0, 0.5));
     const std::vector<Eigen::Vector3d> corners =
       picked.empty() ? guess.Corners(shape, SMPExecution(self, 0.5, 0.6)) : picked;
-    SegmentDomain domain = DomainFromCorners(
-      piece.Mesh, shape, corners, SMPExecution(self, 0.6, 0.9), self->SnapLimit * guess.Diagonal());
-    DomainBlocks blocks = BlocksOf(domain, settings, SMPExecution(self, 0.9, 1.0));
     DomainSet set;
-    set.Surfaces.push_back({ std::move(domain), piece.Origins });
-    set.Segments.push_back({ segment, 0, -1, std::move(blocks) });
-    const std::string remark = RemarkOn(set.Segments[0]);
-    if (!remark.empty())
-    {
-      set.Remarks.push_back(remark);
-    }
+    AddDomainFromCorners(surface, segment, shape, corners, self->SnapLimit, settings,
+      SMPExecution(self, 0.6, 1.0), set);
     return set;
   }
 
@@ -118,43 +111,33 @@ vtkPolycubeDomain::~vtkPolycubeDomain()
 //------------------------------------------------------------------------------
 void vtkPolycubeDomain::AddSegment(int segment)
 {
-  this->Segments.push_back(segment);
-  this->Modified();
+  AddEntry(this, this->Segments, segment);
 }
 
 void vtkPolycubeDomain::ClearSegments()
 {
-  if (!this->Segments.empty())
-  {
-    this->Segments.clear();
-    this->Modified();
-  }
+  ClearEntries(this, this->Segments);
 }
 
 int vtkPolycubeDomain::GetSegment(int i) const
 {
-  return i >= 0 && i < this->GetNumberOfSegments() ? this->Segments[i] : -1;
+  return EntryOf(this->Segments, i, -1);
 }
 
 //------------------------------------------------------------------------------
 void vtkPolycubeDomain::AddSwitchedOffCube(int cube)
 {
-  this->SwitchedOffCubes.push_back(cube);
-  this->Modified();
+  AddEntry(this, this->SwitchedOffCubes, cube);
 }
 
 void vtkPolycubeDomain::ClearSwitchedOffCubes()
 {
-  if (!this->SwitchedOffCubes.empty())
-  {
-    this->SwitchedOffCubes.clear();
-    this->Modified();
-  }
+  ClearEntries(this, this->SwitchedOffCubes);
 }
 
 int vtkPolycubeDomain::GetSwitchedOffCube(int i) const
 {
-  return i >= 0 && i < this->GetNumberOfSwitchedOffCubes() ? this->SwitchedOffCubes[i] : -1;
+  return EntryOf(this->SwitchedOffCubes, i, -1);
 }
 
 //------------------------------------------------------------------------------
@@ -166,11 +149,7 @@ void vtkPolycubeDomain::AddCornerPosition(double x, double y, double z)
 
 void vtkPolycubeDomain::ClearCornerPositions()
 {
-  if (!this->CornerPositions.empty())
-  {
-    this->CornerPositions.clear();
-    this->Modified();
-  }
+  ClearEntries(this, this->CornerPositions);
 }
 
 //------------------------------------------------------------------------------
@@ -262,46 +241,31 @@ int vtkPolycubeDomain::RequestData(
   {
     return 1; // the first piece is all
   }
-  try
-  {
-    vtkNew<vtkPolyData> surface, corners;
-    surface->ShallowCopy(input);
-    if (points)
+  return RunTellingErrors(this, "coarsen the surface.",
+    [&]()
     {
-      corners->SetPoints(points->GetPoints());
-    }
-    if (gathering)
-    {
-      vtkNew<vtkPolyData> allCorners;
-      surface->Initialize();
-      GatherSurface(input, surface, this->Controller);
-      GatherSurface(corners, allCorners, this->Controller);
-      corners->ShallowCopy(allCorners);
-      if (this->Controller->GetLocalProcessId() > 0)
+      vtkNew<vtkPolyData> surface, corners;
+      surface->ShallowCopy(input);
+      if (points)
       {
-        return 1;
+        corners->SetPoints(points->GetPoints());
       }
-      vtkWarningMacro("Domains are made on one process: the pieces of "
-                      << this->Controller->GetNumberOfProcesses()
-                      << " processes were gathered to process 0.");
-    }
-    this->MakeDomains(surface, points ? corners.Get() : nullptr, outputVector);
-  }
-  catch (const Aborted&)
-  {
-    return 1; // the executive empties the outputs
-  }
-  catch (const std::bad_alloc&)
-  {
-    vtkErrorMacro("Out of memory; coarsen the surface.");
-    return 0;
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
-  return 1;
+      if (gathering)
+      {
+        vtkNew<vtkPolyData> allCorners;
+        surface->Initialize();
+        GatherSurface(input, surface, this->Controller);
+        GatherSurface(corners, allCorners, this->Controller);
+        corners->ShallowCopy(allCorners);
+        if (const auto answer =
+              AnswerElsewhere(this, "Domains are made on one process", true, "", this->Controller))
+        {
+          return *answer;
+        }
+      }
+      this->MakeDomains(surface, points ? corners.Get() : nullptr, outputVector);
+      return 1;
+    });
 }
 
 //------------------------------------------------------------------------------

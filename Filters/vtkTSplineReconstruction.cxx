@@ -3,8 +3,14 @@
 #include "vtkTSplineReconstruction.h"
 
 #include "ChainStep.h"
+#include "DomainFit.h"
+#include "DomainOutput.h"
+#include "FilterRun.h"
+#include "GivenDomains.h"
+#include "ListProperty.h"
 #include "SMPExecution.h"
 #include "SegmentFits.h"
+#include "SegmentSurface.h"
 #include "SharedPieces.h"
 #include "TSplineGrid.h"
 #include "vtkPolycubeDomain.h"
@@ -15,20 +21,22 @@
 
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStringArray.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <new>
 #include <stdexcept>
 
 using namespace trivariate;
@@ -44,42 +52,59 @@ enum Outputs
   SEGMENTED,
   SURFACES,
   PATCHES,
-  POLYCUBES
+  POLYCUBES,
+  FIELDS,
+  HEXAHEDRA,
+  NUMBER_OF_OUTPUTS
 };
 
 // Where the steps end, as shares of the progress.
-constexpr double Segmented = 0.3, Whole = 0.35, Bounded = 0.4, LaidOut = 0.5;
+constexpr double Segmented = 0.2, Whole = 0.23, Bounded = 0.27, LaidOut = 0.35, Filled = 0.5;
 
 //------------------------------------------------------------------------------
-// The image with these arrays only; that of labels, the last one, gets the name Segment.
-vtkSmartPointer<vtkImageData> MakeImage(vtkImageData* like, const int* extent,
-  const std::vector<vtkSmartPointer<vtkDataArray>>& arrays, bool labelled)
+// The image with these arrays only, and labels (or null: none) under the name Segment.
+vtkSmartPointer<vtkImageData> MakeImage(
+  vtkImageData* like, const std::vector<vtkDataArray*>& arrays, vtkDataArray* labels)
 {
   auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetOrigin(like->GetOrigin());
-  image->SetSpacing(like->GetSpacing());
-  image->SetDirectionMatrix(like->GetDirectionMatrix());
-  image->SetExtent(const_cast<int*>(extent));
-  for (std::size_t a = 0; a < arrays.size(); ++a)
+  image->CopyStructure(like);
+  for (vtkDataArray* array : arrays)
   {
-    vtkSmartPointer<vtkDataArray> array = arrays[a];
-    if (labelled && a + 1 == arrays.size())
-    {
-      array = vtk::TakeSmartPointer(arrays[a]->NewInstance());
-      array->ShallowCopy(arrays[a]);
-      array->SetName("Segment");
-    }
     image->GetPointData()->AddArray(array);
   }
   image->GetPointData()->SetActiveScalars(arrays.front()->GetName());
+  if (labels)
+  {
+    const auto segments = vtk::TakeSmartPointer(labels->NewInstance());
+    segments->ShallowCopy(labels);
+    segments->SetName("Segment");
+    image->GetPointData()->AddArray(segments);
+  }
   return image;
+}
+
+//------------------------------------------------------------------------------
+void WriteSeconds(const Chain& chain, vtkFieldData* field)
+{
+  vtkNew<vtkStringArray> names;
+  names->SetName("Step");
+  vtkNew<vtkDoubleArray> seconds;
+  seconds->SetName("StepSeconds");
+  for (const auto& [name, time] : chain.Seconds)
+  {
+    names->InsertNextValue(name);
+    seconds->InsertNextValue(time);
+  }
+  field->AddArray(names);
+  field->AddArray(seconds);
 }
 }
 
 //------------------------------------------------------------------------------
 vtkTSplineReconstruction::vtkTSplineReconstruction()
 {
-  this->SetNumberOfOutputPorts(6);
+  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(NUMBER_OF_OUTPUTS);
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
   this->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "None");
@@ -92,18 +117,13 @@ void vtkTSplineReconstruction::AddAttribute(const char* name)
 {
   if (name && *name)
   {
-    this->Attributes.emplace_back(name);
-    this->Modified();
+    AddEntry(this, this->Attributes, std::string(name));
   }
 }
 
 void vtkTSplineReconstruction::ClearAttributes()
 {
-  if (!this->Attributes.empty())
-  {
-    this->Attributes.clear();
-    this->Modified();
-  }
+  ClearEntries(this, this->Attributes);
 }
 
 const char* vtkTSplineReconstruction::GetAttribute(int i) const
@@ -112,16 +132,18 @@ const char* vtkTSplineReconstruction::GetAttribute(int i) const
 }
 
 //------------------------------------------------------------------------------
-int vtkTSplineReconstruction::FillInputPortInformation(int, vtkInformation* info)
+int vtkTSplineReconstruction::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  info->Set(
+    vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkImageData" : "vtkUnstructuredGrid");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port);
   return 1;
 }
 
 int vtkTSplineReconstruction::FillOutputPortInformation(int port, vtkInformation* info)
 {
   const char* types[] = { "vtkUnstructuredGrid", "vtkTable", "vtkImageData", "vtkPolyData",
-    "vtkPolyData", "vtkUnstructuredGrid" };
+    "vtkPolyData", "vtkUnstructuredGrid", "vtkImageData", "vtkUnstructuredGrid" };
   info->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
   return 1;
 }
@@ -131,19 +153,21 @@ int vtkTSplineReconstruction::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
   RequestWholeImage(inputVector[0]->GetInformationObject(0));
+  if (inputVector[1]->GetNumberOfInformationObjects() > 0)
+  {
+    RequestAll(inputVector[1]->GetInformationObject(0));
+  }
   return 1;
 }
 
 //------------------------------------------------------------------------------
+// The arrays to fit, the first one the chosen one.
 std::vector<vtkDataArray*> vtkTSplineReconstruction::ChosenArrays(vtkImageData* image)
 {
-  const char* name = this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME());
-  vtkDataArray* chosen =
-    name && !*name ? image->GetPointData()->GetScalars() : this->GetInputArrayToProcess(0, image);
-  if (!chosen || !chosen->GetName())
+  vtkDataArray* chosen = ChosenValues(this, image, this->GetInputArrayToProcess(0, image));
+  if (!chosen->GetName())
   {
-    throw std::invalid_argument("The image does not have the point array that was chosen; use "
-                                "SetInputArrayToProcess(0, ...).");
+    throw std::invalid_argument("The chosen point array needs a name.");
   }
   std::vector<vtkDataArray*> arrays = { chosen };
   for (const std::string& further : this->Attributes)
@@ -162,7 +186,36 @@ std::vector<vtkDataArray*> vtkTSplineReconstruction::ChosenArrays(vtkImageData* 
 }
 
 //------------------------------------------------------------------------------
-void vtkTSplineReconstruction::FitBox(vtkImageData* image, vtkInformationVector* outputVector)
+// The array of labels; null: none is chosen.
+vtkDataArray* vtkTSplineReconstruction::ChosenLabels(vtkImageData* image)
+{
+  const char* chosen = this->GetInputArrayInformation(1)->Get(vtkDataObject::FIELD_NAME());
+  const std::string name = chosen && *chosen ? chosen : "None";
+  vtkDataArray* labels = name == "None" ? nullptr : this->GetInputArrayToProcess(1, image);
+  if (name != "None" && !labels)
+  {
+    throw std::invalid_argument("The image has no point array \"" + name + "\" of labels.");
+  }
+  return labels;
+}
+
+//------------------------------------------------------------------------------
+std::vector<GivenDomain> vtkTSplineReconstruction::GivenDomains(vtkUnstructuredGrid* grid)
+{
+  if (this->Domain != GIVEN)
+  {
+    return {};
+  }
+  if (!grid)
+  {
+    throw std::invalid_argument("There is no domain: the second input is not connected.");
+  }
+  return ReadGivenDomains(grid);
+}
+
+//------------------------------------------------------------------------------
+void vtkTSplineReconstruction::FitBox(
+  vtkImageData* image, Chain& chain, vtkInformationVector* outputVector)
 {
   vtkNew<vtkTSplineFit> fit;
   fit->SetController(nullptr);
@@ -175,92 +228,134 @@ void vtkTSplineReconstruction::FitBox(vtkImageData* image, vtkInformationVector*
   }
   fit->SetMaximumNumberOfControlPoints(this->MaximumNumberOfControlPoints);
   fit->SetRMSTolerance(this->RMSTolerance);
-  ChainStep step(fit, this, 0.0, 1.0);
-  step.Run();
+  ChainStep(fit, chain, 0.0, 1.0, "FitOverBox").Run();
   vtkUnstructuredGrid::GetData(outputVector, TSPLINE)->ShallowCopy(fit->GetOutput());
   vtkTable::GetData(outputVector, ROUNDS)->ShallowCopy(fit->GetOutputDataObject(1));
 }
 
 //------------------------------------------------------------------------------
-// Surfaces, patches and polycubes; where there is none a warning says why.
-void vtkTSplineReconstruction::LayOut(vtkImageData* segments, vtkInformationVector* outputVector)
+// The domains that were given, or those that are found.
+void vtkTSplineReconstruction::LayOut(vtkPolyData* surfaces, const std::vector<GivenDomain>& given,
+  Chain& chain, vtkInformationVector* outputVector)
 {
-  try
+  vtkPolyData* patches = vtkPolyData::GetData(outputVector, PATCHES);
+  vtkUnstructuredGrid* polycubes = vtkUnstructuredGrid::GetData(outputVector, POLYCUBES);
+  if (given.empty())
   {
-    vtkNew<vtkSegmentBoundary> boundary;
-    boundary->SetController(nullptr);
-    boundary->SetInputData(segments);
-    ChainStep bound(boundary, this, Whole, Bounded);
-    bound.Run();
-    vtkPolyData::GetData(outputVector, SURFACES)->ShallowCopy(boundary->GetOutput());
-
     vtkNew<vtkPolycubeDomain> domain;
     domain->SetController(nullptr);
-    domain->SetInputData(boundary->GetOutput());
-    ChainStep layOut(domain, this, Bounded, LaidOut);
+    domain->SetInputData(surfaces);
+    ChainStep layOut(domain, chain, Bounded, LaidOut);
     layOut.Run();
-    vtkPolyData::GetData(outputVector, PATCHES)->ShallowCopy(domain->GetPatches());
-    vtkUnstructuredGrid::GetData(outputVector, POLYCUBES)->ShallowCopy(domain->GetPolycube());
-    for (const std::string& warning : layOut.Warnings())
-    {
-      vtkWarningMacro(<< warning);
-    }
+    patches->ShallowCopy(domain->GetPatches());
+    polycubes->ShallowCopy(domain->GetPolycube());
+    this->Warn(layOut.Warnings());
+    return;
+  }
+  const LabelledSurface surface = ReadSurface(surfaces);
+  const DomainSet domains =
+    LayOutGivenDomains(surface, given, SMPExecution(this, Bounded, LaidOut));
+  this->Warn(domains.Remarks);
+  vtkNew<vtkPolyData> borders;
+  WriteDomains(surface, domains, {}, patches, polycubes, borders);
+}
+
+//------------------------------------------------------------------------------
+// Fields and hexahedra over domains of cubes; none, and a warning that says why, where there is no
+// domain. A domain that was given has to be one.
+FilledDomains vtkTSplineReconstruction::Fill(vtkImageData* segments, vtkPolyData* surfaces,
+  const std::vector<GivenDomain>& given, Chain& chain, vtkInformationVector* outputVector)
+{
+  FilledDomains domains;
+  bool isLaidOut = false;
+  try
+  {
+    this->LayOut(surfaces, given, chain, outputVector);
+    isLaidOut = true;
+    domains = FillDomains(segments, vtkPolyData::GetData(outputVector, PATCHES),
+      vtkUnstructuredGrid::GetData(outputVector, POLYCUBES), chain, LaidOut, Filled);
+    vtkUnstructuredGrid::GetData(outputVector, POLYCUBES)->ShallowCopy(domains.Polycubes);
+    vtkImageData::GetData(outputVector, FIELDS)->ShallowCopy(domains.Fields);
+    vtkUnstructuredGrid::GetData(outputVector, HEXAHEDRA)->ShallowCopy(domains.Hexahedra);
   }
   catch (const std::runtime_error& reason)
   {
-    vtkWarningMacro("No segment has a domain of cubes: " << reason.what());
+    if (!given.empty() && !isLaidOut)
+    {
+      throw;
+    }
+    vtkWarningMacro("No segment is fitted over cubes: " << reason.what());
+  }
+  return domains;
+}
+
+//------------------------------------------------------------------------------
+void vtkTSplineReconstruction::Warn(const std::vector<std::string>& warnings)
+{
+  for (const std::string& warning : warnings)
+  {
+    vtkWarningMacro(<< warning);
   }
 }
 
 //------------------------------------------------------------------------------
-void vtkTSplineReconstruction::FitParts(
-  vtkImageData* image, bool labelled, vtkInformationVector* outputVector)
+// The image with the point array Segment, every segment in one piece.
+vtkSmartPointer<vtkImageData> vtkTSplineReconstruction::Split(
+  vtkImageData* image, bool labelled, Chain& chain)
 {
+  vtkNew<vtkTextureSegmentation> segmentation;
+  vtkNew<vtkSegmentTopology> topology;
+  topology->SetController(nullptr);
+  topology->SetInputData(image);
+  if (!labelled)
+  {
+    segmentation->SetController(nullptr);
+    segmentation->SetInputData(image);
+    segmentation->SetInputArrayToProcess(
+      0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, image->GetPointData()->GetArrayName(0));
+    segmentation->SetNumberOfSegments(this->NumberOfSegments);
+    ChainStep segment(segmentation, chain, 0.0, Segmented);
+    segment.Run();
+    this->Warn(segment.Warnings());
+    topology->SetInputData(segmentation->GetOutput());
+  }
+  ChainStep(topology, chain, Segmented, Whole).Run();
+  return vtkImageData::SafeDownCast(topology->GetOutputDataObject(0));
+}
+
+//------------------------------------------------------------------------------
+void vtkTSplineReconstruction::FitParts(vtkImageData* image, bool labelled,
+  const std::vector<GivenDomain>& given, Chain& chain, vtkInformationVector* outputVector)
+{
+  vtkImageData* segments = vtkImageData::GetData(outputVector, SEGMENTED);
+  segments->ShallowCopy(this->Split(image, labelled, chain));
+  FilledDomains domains;
+  double range[2];
+  segments->GetPointData()->GetArray("Segment")->GetRange(range);
+  if (range[0] < range[1])
+  {
+    vtkNew<vtkSegmentBoundary> boundary;
+    boundary->SetController(nullptr);
+    boundary->SetInputData(segments);
+    ChainStep(boundary, chain, Whole, Bounded).Run();
+    vtkPolyData* surfaces = vtkPolyData::GetData(outputVector, SURFACES);
+    surfaces->ShallowCopy(boundary->GetOutput());
+    if (this->Domain != SEGMENTS)
+    {
+      domains = this->Fill(segments, surfaces, given, chain, outputVector);
+    }
+  }
   SegmentFitOptions options;
   options.Array = image->GetPointData()->GetArrayName(0);
   options.Further = this->Attributes;
   options.MaximumControlPoints = this->MaximumNumberOfControlPoints;
   options.RmsTolerance = this->RMSTolerance;
-  options.OverDomains = this->Domain == AUTOMATIC;
-
-  vtkNew<vtkImageData> segments;
-  segments->ShallowCopy(image);
-  if (!labelled)
-  {
-    vtkNew<vtkTextureSegmentation> segmentation;
-    segmentation->SetController(nullptr);
-    segmentation->SetInputData(image);
-    segmentation->SetInputArrayToProcess(
-      0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, options.Array.c_str());
-    segmentation->SetNumberOfSegments(this->NumberOfSegments);
-    ChainStep segment(segmentation, this, 0.0, Segmented);
-    segment.Run();
-    for (const std::string& warning : segment.Warnings())
-    {
-      vtkWarningMacro(<< warning);
-    }
-    segments->ShallowCopy(segmentation->GetOutput());
-  }
-  vtkNew<vtkSegmentTopology> topology;
-  topology->SetController(nullptr);
-  topology->SetInputData(segments);
-  ChainStep makeWhole(topology, this, Segmented, Whole);
-  makeWhole.Run();
-  segments->ShallowCopy(topology->GetOutput());
-  double range[2];
-  segments->GetPointData()->GetArray("Segment")->GetRange(range);
-  if (range[0] < range[1])
-  {
-    this->LayOut(segments, outputVector);
-  }
-  vtkImageData::GetData(outputVector, SEGMENTED)->ShallowCopy(segments);
+  options.Domains = &domains;
+  options.Compared = given.empty();
   std::vector<std::string> why;
-  const TSplineModel model = FitSegments(
-    segments, options, vtkTable::GetData(outputVector, ROUNDS), why, this, LaidOut, 1.0);
-  for (const std::string& reason : why)
-  {
-    vtkWarningMacro(<< reason);
-  }
+  const TSplineModel model = FitSegments(segments, options, vtkTable::GetData(outputVector, ROUNDS),
+    why, chain, this->GetProgress(), 1.0);
+  this->Warn(why);
   TSplineToGrid(model, vtkUnstructuredGrid::GetData(outputVector, TSPLINE));
 }
 
@@ -269,76 +364,35 @@ int vtkTSplineReconstruction::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkImageData* input = vtkImageData::GetData(inputVector[0]);
-  const int piece = outputVector->GetInformationObject(0)->Get(
-    vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
-  if (piece > 0)
+  if (outputVector->GetInformationObject(0)->Get(
+        vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
   {
     return 1; // the first piece is all
   }
-  const char* name = this->GetInputArrayInformation(1)->Get(vtkDataObject::FIELD_NAME());
-  const std::string labelName = name ? name : "";
-  const bool labelled = this->Domain != BOX && !labelName.empty() && labelName != "None";
-  std::vector<vtkSmartPointer<vtkDataArray>> arrays;
-  std::array<int, 6> extent;
-  input->GetExtent(extent.data());
-  std::string fault;
-  try
-  {
-    if (input->GetNumberOfPoints() > 0)
+  return RunTellingErrors(this,
+    "crop or coarsen the image, or allow fewer than " +
+      std::to_string(this->MaximumNumberOfControlPoints) + " control points.",
+    [&]()
     {
-      std::vector<vtkDataArray*> chosen = this->ChosenArrays(input);
-      if (labelled)
+      if (input->GetNumberOfPoints() == 0)
       {
-        chosen.push_back(this->GetInputArrayToProcess(1, input));
-        if (!chosen.back())
-        {
-          throw std::invalid_argument(
-            "The image has no point array \"" + labelName + "\" of labels.");
-        }
+        throw std::invalid_argument("The image has no points.");
       }
-      arrays.assign(chosen.begin(), chosen.end());
-    }
-  }
-  catch (const std::exception& error)
-  {
-    fault = error.what();
-  }
-  try
-  {
-    if (!fault.empty())
-    {
-      throw std::invalid_argument(fault);
-    }
-    if (arrays.empty())
-    {
-      throw std::invalid_argument("The image has no points.");
-    }
-    const auto image = MakeImage(input, extent.data(), arrays, labelled);
-    if (this->Domain == BOX)
-    {
-      this->FitBox(image, outputVector);
-    }
-    else
-    {
-      this->FitParts(image, labelled, outputVector);
-    }
-  }
-  catch (const Aborted&)
-  {
-    return 1; // the executive empties the outputs
-  }
-  catch (const std::bad_alloc&)
-  {
-    vtkErrorMacro("Out of memory; crop or coarsen the image, or allow fewer than "
-                  << this->MaximumNumberOfControlPoints << " control points.");
-    return 0;
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
-  return 1;
+      Chain chain{ this, {} };
+      const std::vector<vtkDataArray*> arrays = this->ChosenArrays(input);
+      if (this->Domain == BOX)
+      {
+        this->FitBox(MakeImage(input, arrays, nullptr), chain, outputVector);
+      }
+      else
+      {
+        vtkDataArray* labels = this->ChosenLabels(input);
+        this->FitParts(MakeImage(input, arrays, labels), labels != nullptr,
+          this->GivenDomains(vtkUnstructuredGrid::GetData(inputVector[1])), chain, outputVector);
+      }
+      WriteSeconds(chain, vtkTable::GetData(outputVector, ROUNDS)->GetFieldData());
+      return 1;
+    });
 }
 
 //------------------------------------------------------------------------------

@@ -9,27 +9,42 @@
  * the background too, so that vtkTSplineSource writes the whole image back (with the segmented
  * image as its second input, which tells whose spline counts where).
  *
- * The chain is that of vtkTextureSegmentation, vtkSegmentTopology, vtkSegmentBoundary,
- * vtkPolycubeDomain and vtkTSplineFit, each with its defaults. A segment is fitted over its
- * bounding box, the voxels of other segments masked. With Domain AUTOMATIC every segment but the
- * lowest is fitted a second time, over its cubes (vtkFrameField, vtkVolumeParameterization), with
- * as many control points; what is more accurate in the round trip is kept. A warning tells why a
- * segment stays with its box. Voxels that the spline over the cubes misses are counted to the
- * lowest segment.
+ * The chain is that of vtkTextureSegmentation, vtkSegmentTopology, vtkSegmentBoundary and
+ * vtkTSplineFit, each with its defaults. A segment is fitted over its bounding box, the voxels of
+ * other segments masked. With Domain AUTOMATIC every segment for which vtkPolycubeDomain finds a
+ * domain is fitted a second time, over its cubes (vtkFrameField, vtkVolumeParameterization), with
+ * as many control points; what is more accurate in the round trip is kept. With Domain GIVEN the
+ * segments with a domain in the second input are fitted over that. A warning tells why a segment
+ * with a domain stays with its box: no cubes, folds, voxels that are missed. Up to 2 % of the
+ * voxels may be missed; these are counted to the lowest segment.
  *
  * @par Input
  * Port 0: a vtkImageData with two or more points along each axis. The point array to fit is chosen
  * with SetInputArrayToProcess(0, ...), those named with AddAttribute are fitted beside it. A point
  * array of labels, whole numbers from 0, that is chosen with SetInputArrayToProcess(1, ...) takes
  * the place of the segmentation; the default "None" is none.
+ * Port 1 (for Domain GIVEN): vtkUnstructuredGrid, cubes and corners of some segments, as output 1
+ * of vtkPolycubeDomain: hexahedra with the cell array Segment and the point array
+ * DomainCoordinates, eight neighbouring lattice points each. The points of the shape's boundary are
+ * the corners, each at most a tenth of the segment's diagonal away from its surface, to which it is
+ * moved. Where there is a cell array Patch, cells with a patch are no cubes, but tell that there
+ * are to be blocks along the surface; where there is a point array CornerId, points with -1 are no
+ * corners.
  *
  * @par Output
  * Port 0: the T-spline grid; the control points' arrays Segment and Block tell whose they are.
- * Port 1: vtkTable, the rounds of all fits, with the columns of vtkTSplineFit and Segment.
+ * Port 1: vtkTable, the rounds of all fits, with the columns of vtkTSplineFit and Segment. Field
+ * data: Step (string) and StepSeconds (double), where the time went: the names of the filters
+ * without "vtk", FitOverBox and FitOverCubes.
  * Unless Domain is BOX also:
  * Port 2: the image with the point array Segment. Port 3: vtkPolyData, the surfaces of the segments
- * of vtkSegmentBoundary. Port 4: vtkPolyData, patches, and port 5: vtkUnstructuredGrid, polycubes,
- * of vtkPolycubeDomain, of those segments that have one.
+ * of vtkSegmentBoundary.
+ * With Domain AUTOMATIC or GIVEN also, of those segments that have a domain:
+ * Port 4: vtkPolyData, patches, of vtkPolycubeDomain. Port 5: vtkUnstructuredGrid, polycubes, and
+ * port 6: vtkImageData, fields, both of vtkVolumeParameterization (frames, Parameter,
+ * ParameterMask, Block). Port 7: vtkUnstructuredGrid, hexahedra of vtkHexRemesh, with the field
+ * data InvertedCells (double x 2, before and after repair) and ScaledJacobian (double x 2, least
+ * and mean).
  *
  * @par Cost
  * The sum of the steps; memory that of the most expensive one. Threaded with vtkSMPTools; the
@@ -42,13 +57,15 @@
  * @par Errors
  * What the first step that cannot go on says: an image without points or the chosen array, one
  * voxel thick, with NaN or infinity, too large for the memory; labels that are no whole numbers or
- * negative.
+ * negative. A given domain that is none: no unit cubes, corners that are missing, twice there, too
+ * far from the surface or mirrored, a segment that is not there or in pieces.
  *
  * @sa vtkReconstructionReport vtkTSplineFit vtkTSplineSource
  */
 #ifndef vtkTSplineReconstruction_h
 #define vtkTSplineReconstruction_h
 
+#include "vtkSmartPointer.h"            // for images
 #include "vtkTrivariateFiltersModule.h" // for export macro
 #include "vtkUnstructuredGridAlgorithm.h"
 
@@ -57,6 +74,14 @@
 
 class vtkDataArray;
 class vtkImageData;
+class vtkPolyData;
+
+namespace trivariate
+{
+struct Chain;
+struct FilledDomains;
+struct GivenDomain;
+}
 
 class VTKTRIVARIATEFILTERS_EXPORT vtkTSplineReconstruction : public vtkUnstructuredGridAlgorithm
 {
@@ -72,18 +97,24 @@ public:
     /// A spline for each segment, over its bounding box.
     SEGMENTS = 1,
     /// A spline for each segment, over its cubes or its bounding box, whichever is better.
-    AUTOMATIC = 2
+    AUTOMATIC = 2,
+    /// A spline for each segment, over the cubes of the second input where it has some.
+    GIVEN = 3
   };
+
+  /// Cubes and corners of some segments, for Domain GIVEN.
+  void SetDomainConnection(vtkAlgorithmOutput* input) { this->SetInputConnection(1, input); }
 
   ///@{
   /**
    * Over what is fitted. Default is SEGMENTS.
    */
-  vtkSetClampMacro(Domain, int, BOX, AUTOMATIC);
+  vtkSetClampMacro(Domain, int, BOX, GIVEN);
   vtkGetMacro(Domain, int);
   void SetDomainToBox() { this->SetDomain(BOX); }
   void SetDomainToSegments() { this->SetDomain(SEGMENTS); }
   void SetDomainToAutomatic() { this->SetDomain(AUTOMATIC); }
+  void SetDomainToGiven() { this->SetDomain(GIVEN); }
   ///@}
 
   ///@{
@@ -140,11 +171,20 @@ private:
   vtkTSplineReconstruction(const vtkTSplineReconstruction&) = delete;
   void operator=(const vtkTSplineReconstruction&) = delete;
 
-  // The arrays that the chain needs, the first one the chosen one.
   std::vector<vtkDataArray*> ChosenArrays(vtkImageData* image);
-  void FitBox(vtkImageData* image, vtkInformationVector* outputVector);
-  void FitParts(vtkImageData* image, bool labelled, vtkInformationVector* outputVector);
-  void LayOut(vtkImageData* segments, vtkInformationVector* outputVector);
+  vtkDataArray* ChosenLabels(vtkImageData* image);
+  std::vector<trivariate::GivenDomain> GivenDomains(vtkUnstructuredGrid* grid);
+  void FitBox(vtkImageData* image, trivariate::Chain& chain, vtkInformationVector* outputVector);
+  void FitParts(vtkImageData* image, bool labelled,
+    const std::vector<trivariate::GivenDomain>& given, trivariate::Chain& chain,
+    vtkInformationVector* outputVector);
+  vtkSmartPointer<vtkImageData> Split(vtkImageData* image, bool labelled, trivariate::Chain& chain);
+  trivariate::FilledDomains Fill(vtkImageData* segments, vtkPolyData* surfaces,
+    const std::vector<trivariate::GivenDomain>& given, trivariate::Chain& chain,
+    vtkInformationVector* outputVector);
+  void LayOut(vtkPolyData* surfaces, const std::vector<trivariate::GivenDomain>& given,
+    trivariate::Chain& chain, vtkInformationVector* outputVector);
+  void Warn(const std::vector<std::string>& warnings);
 
   int Domain = SEGMENTS;
   int NumberOfSegments = 0;

@@ -13,10 +13,14 @@ from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkCommonCore import vtkSMPTools
-from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkUnstructuredGrid
 
+import given_domain
 import picture
 import trivariate
+
+
+DOMAINS = {"box": "Box", "segments": "Segments", "auto": "Automatic"}
 
 
 def fail(message):
@@ -77,6 +81,24 @@ def read(volume):
     image = output_of(source)
     if not isinstance(image, vtkImageData) or image.GetNumberOfPoints() == 0:
         fail(f"'{volume}' holds no volume image")
+    return source
+
+
+def read_domain(path):
+    """The source of cubes and corners: a .json file as given_domain.py describes it, or a grid."""
+    if path.endswith(".json"):
+        try:
+            grid = given_domain.read(path)
+        except (OSError, ValueError) as error:
+            fail(f"'{path}' is no domain: {error}")
+        source = simple.TrivialProducer()
+        source.GetClientSideObject().SetOutput(grid)
+        return source
+    source = simple.OpenDataFile(path)
+    if source is not None:
+        source.UpdatePipeline()
+    if source is None or not isinstance(output_of(source), vtkUnstructuredGrid):
+        fail(f"'{path}' is no domain: it has to be a .json file or an unstructured grid")
     return source
 
 
@@ -146,6 +168,12 @@ def evaluate(path, model, output_type, **settings):
     return source
 
 
+def not_empty(proxy, port):
+    """An output of a filter, or None if it has no points."""
+    output = simple.OutputPort(proxy, port)
+    return output if output_of(output).GetNumberOfPoints() > 0 else None
+
+
 class Segments:
     """What the steps beside the fit make of the volume: each an output of a filter, or None."""
     labelled = surfaces = whole = patches = polycubes = fields = hexahedra = None
@@ -179,21 +207,31 @@ class Segments:
         report_progress(hexahedra)
         listen(hexahedra)
         hexahedra.UpdatePipeline()
-        mesh = simple.OutputPort(hexahedra, 1)
-        if output_of(mesh).GetNumberOfCells() > 0:
-            self.hexahedra = mesh
+        self.hexahedra = not_empty(hexahedra, 1)
 
     def take_domains(self, layout, patches, polycubes):
-        cubes = simple.OutputPort(layout, polycubes)
-        if output_of(cubes).GetNumberOfCells() > 0:
-            self.patches, self.polycubes = simple.OutputPort(layout, patches), cubes
+        self.patches = not_empty(layout, patches)
+        self.polycubes = not_empty(layout, polycubes)
 
     def take(self, reconstruction):
+        """Takes what the one step has made on its way."""
         self.labelled = simple.OutputPort(reconstruction, 2)
-        surfaces = simple.OutputPort(reconstruction, 3)
-        if output_of(surfaces).GetNumberOfCells() > 0:
-            self.surfaces = surfaces
+        self.surfaces = not_empty(reconstruction, 3)
         self.take_domains(reconstruction, 4, 5)
+        self.fields = not_empty(reconstruction, 6)
+        self.hexahedra = not_empty(reconstruction, 7)
+
+    def quality(self):
+        """Of the hexahedra: how many were inverted, how many are, least and mean Jacobian."""
+        if self.hexahedra is None:
+            return {"hexahedra": None}
+        mesh = output_of(self.hexahedra)
+        field = mesh.GetFieldData()
+        before, after = field.GetArray("InvertedCells").GetTuple(0)
+        least, mean = field.GetArray("ScaledJacobian").GetTuple(0)
+        return {"hexahedra": {"cells": mesh.GetNumberOfCells(),
+                              "inverted_cells": {"before": int(before), "after": int(after)},
+                              "min_scaled_jacobian": least, "mean_scaled_jacobian": mean}}
 
     def save(self, path):
         for name, output in (("segments.vti", self.labelled), ("boundary.vtp", self.surfaces),
@@ -234,19 +272,29 @@ def number_or_none(number):
     return None if math.isnan(number) else number
 
 
-def print_table(report):
-    print()
+def print_table(report, name=""):
     for key, value in report.items():
+        label = f"{name} {key}".replace("_", " ").strip()
         if key == "seconds":
             value = f"{sum(value.values()):.1f}"
+        elif isinstance(value, dict):
+            print_table(value, label)
+            continue
         elif isinstance(value, float):
             value = f"{value:.5g}"
         elif isinstance(value, int):
             value = f"{value:,}"
         elif value is None:
             value = "-"
-        print(f"  {key.replace('_', ' '):32} {value:>16}")
-    print(flush=True)
+        print(f"  {label:40} {value:>16}", flush=True)
+
+
+def seconds_by_step(rounds):
+    """Where the time of the reconstruction went."""
+    field = output_of(rounds).GetFieldData()
+    names, seconds = field.GetAbstractArray("Step"), field.GetArray("StepSeconds")
+    return {names.GetValue(i): round(seconds.GetValue(i), 3)
+            for i in range(names.GetNumberOfValues())}
 
 
 def main():
@@ -257,7 +305,7 @@ def main():
     parser.add_argument("--tolerance", type=float)
     parser.add_argument("--control-points", type=int)
     parser.add_argument("--segments", type=int)
-    parser.add_argument("--domain", choices=["box", "segments", "auto"], default="box")
+    parser.add_argument("--domain", default="box")
     options = parser.parse_args()
     if options.tolerance is None:
         options.tolerance = 0.0 if options.control_points else 0.1
@@ -275,9 +323,11 @@ def main():
     source = step("read", read, options.volume)
     name = choose_array(output_of(source), options.array)
     segments = Segments()
+    domain = {"Domain": DOMAINS.get(options.domain, "Given")}
+    if domain["Domain"] == "Given":
+        domain["GivenDomain"] = step("read_domain", read_domain, options.domain)
     fit = simple.TSplineReconstruction(
-        Input=source, Scalars=["POINTS", name], NumberOfSegments=options.segments or 0,
-        Domain={"box": "Box", "segments": "Segments", "auto": "Automatic"}[options.domain],
+        Input=source, Scalars=["POINTS", name], NumberOfSegments=options.segments or 0, **domain,
         RMSTolerance=options.tolerance,
         MaximumNumberOfControlPoints=options.control_points or 50000)
     step("fit", run, fit, "the fit")
@@ -288,6 +338,7 @@ def main():
     elif options.segments is not None:
         step("segment", segments.split, source, name, options.segments)
         step("boundary", segments.bound)
+    if options.domain == "segments" or options.domain == "box" and segments.labelled:
         step("domain", segments.lay_out)
         if segments.patches:
             step("frames", segments.align)
@@ -323,7 +374,9 @@ def main():
         "boundary_hausdorff_voxels": number_or_none(measured["HausdorffVoxels"]),
         "min_scaled_jacobian": number_or_none(measured["MinimumScaledJacobian"]),
         "inverted_cells": whole_or_none(measured["InvertedCells"]),
+        **segments.quality(),
         "seconds": step.seconds,
+        "seconds_of_fit": seconds_by_step(simple.OutputPort(fit, 1)),
         "peak_memory_bytes": 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss,
         "model_bytes": os.path.getsize(path("model.tspline")),
         "raw_bytes": int(measured["RawBytes"]),

@@ -3,6 +3,7 @@
 """reconstruct.sh on the built-in orbital: everything it promises is written, reads back and agrees;
 and on bad arguments it says what is wrong."""
 import json
+import math
 import os
 import pathlib
 import subprocess
@@ -21,7 +22,8 @@ script = pathlib.Path(sys.argv[1]) / "reconstruct.sh"
 KEYS = ["voxels", "control_points", "numbers_stored", "tmesh_cells", "bezier_cells",
         "rms_density_percent", "max_error", "round_trip_rms_density_percent", "found_percent",
         "segments", "domains", "corners", "cubes", "boundary_hausdorff_voxels",
-        "min_scaled_jacobian", "inverted_cells", "seconds", "peak_memory_bytes", "model_bytes",
+        "min_scaled_jacobian", "inverted_cells", "hexahedra", "seconds", "seconds_of_fit",
+        "peak_memory_bytes", "model_bytes",
         "raw_bytes", "zlib_bytes", "label_bytes", "threads", "version"]
 
 
@@ -108,7 +110,13 @@ def test_results():
     hexmesh = read(vtkXMLUnstructuredGridReader(), "hexmesh.vtu")
     assert hexmesh.GetCellType(0) == VTK_HEXAHEDRON
     assert set(vtk_to_numpy(hexmesh.GetCellData().GetArray("Segment"))) == {1}
-    assert hexmesh.GetCellData().GetArray("ScaledJacobian").GetRange()[0] > 0.0
+    quality = vtk_to_numpy(hexmesh.GetCellData().GetArray("ScaledJacobian"))
+    assert quality.min() > 0.0
+    cells = report["hexahedra"]
+    assert cells["cells"] == hexmesh.GetNumberOfCells()
+    assert cells["inverted_cells"]["before"] >= cells["inverted_cells"]["after"] == 0
+    assert abs(cells["min_scaled_jacobian"] - quality.min()) < 1e-9
+    assert abs(cells["mean_scaled_jacobian"] - quality.mean()) < 1e-9
 
     picture = vtk_to_numpy(read(vtkPNGReader(), "picture.png").GetPointData().GetScalars())
     assert len(picture) == 1600 * 800
@@ -126,6 +134,9 @@ def test_segments():
     assert list(report) == KEYS and report["segments"] == 2
     assert report["found_percent"] == 100.0 and 600 < report["control_points"] <= 1200
     assert report["label_bytes"] > 0
+    spent = report["seconds_of_fit"]
+    assert set(spent) == {"TextureSegmentation", "SegmentTopology", "SegmentBoundary", "FitOverBox"}
+    assert 0.5 * report["seconds"]["fit"] < sum(spent.values()) <= report["seconds"]["fit"]
     assert report["round_trip_rms_density_percent"] < 1.0, report
     with open("parts/report.csv", encoding="utf-8") as file:
         assert len(file.readlines()) == 1 + 3
@@ -137,6 +148,73 @@ def test_segments():
         assert os.path.getsize(os.path.join("parts", name)) > 0
 
 
+def corners_of(path):
+    """Places of the corners on the surface of the only segment, by their coordinates."""
+    grid = read(vtkXMLUnstructuredGridReader(), path)
+    at = vtk_to_numpy(grid.GetPointData().GetArray("DomainCoordinates"))
+    corners = vtk_to_numpy(grid.GetPointData().GetArray("CornerId")) >= 0
+    places = vtk_to_numpy(grid.GetPoints().GetData())
+    return {tuple(map(int, a)): p for a, p in zip(at[corners], places[corners])}
+
+
+def test_given_domain():
+    """Cubes and corners from a domain.vtu, and the same ones from a .json file."""
+    corners = corners_of("domain.vtu")
+    size = [max(at[a] for at in corners) for a in range(3)]
+    pathlib.Path("corners.json").write_text(json.dumps({"segments": [
+        {"segment": 1, "cubes": size,
+         "corners": [[*at, *map(float, place)] for at, place in corners.items()]}]}))
+    points = {}
+    for file in ("results/domain.vtu", "corners.json"):
+        done = run("--output", "given", "--control-points", "2500", "--domain", file,
+                   "--segments", "2")
+        assert done.returncode == 0, done.stdout + done.stderr
+        with open("given/report.json", encoding="utf-8") as text:
+            report = json.load(text)
+        assert report["corners"] == len(corners) and report["cubes"] == math.prod(size), report
+        assert report["hexahedra"]["inverted_cells"]["after"] == 0
+        assert report["found_percent"] == 100.0
+        for at, place in corners_of("../given/domain.vtu").items():
+            assert numpy.linalg.norm(place - corners[at]) < 1.0, (at, place, corners[at])
+        grid = vtkTSplineReader()
+        grid.SetFileName("given/model.tspline")
+        grid.Update()
+        data = grid.GetOutput().GetPointData()
+        blocks = vtk_to_numpy(data.GetArray("Block"))[vtk_to_numpy(data.GetArray("Segment")) == 1]
+        points[file] = len(blocks), len(set(blocks))
+    assert points["results/domain.vtu"][1] >= 7  # layers
+    assert points["corners.json"][1] == 1, points  # cubes alone
+
+
+def test_given_faults():
+    corners = [[u, v, w, 0, 0, 0] for u in (0, 1) for v in (0, 1) for w in (0, 1)]
+    one = {"segment": 1, "cubes": [1, 1, 1], "corners": corners}
+    for words, content in (
+            ("is no domain", "not json"),
+            ("needs a list 'segments'", "[]"),
+            ("needs a 'segment' of its own", {"segments": [one, one]}),
+            ("1 to 1000 cubes", {"segments": [{**one, "cubes": [1, 0, 1]}]}),
+            ("no cube (4, 0, 0)", {"segments": [{**one, "off": [[4, 0, 0]]}]}),
+            ("the corner at (0, 0, 1) of segment 1 is there twice",
+             {"segments": [{**one, "corners": [*corners, corners[1]]}]}),
+            ("the corner at (2, 0, 0) of segment 1 is at none",
+             {"segments": [{**one, "corners": [*corners, [2, 0, 0, 1, 1, 1]]}]}),
+            ("the place of the corner at (0, 1, 0) of segment 1",
+             {"segments": [{**one, "corners": [[0, 1, 0, 1, 2, "x"]]}]}),
+            ("Segment 1 of the given domain: The corner at (1, 1, 1) has no place",
+             {"segments": [{**one, "corners": corners[:-1]}]}),
+            ("Segment 7 of the given domain", {"segments": [{**one, "segment": 7}]})):
+        pathlib.Path("bad.json").write_text(content if isinstance(content, str)
+                                            else json.dumps(content))
+        done = run("--output", "bad", "--domain", "bad.json", "--segments", "2")
+        said = done.stdout + done.stderr
+        assert done.returncode != 0 and "Traceback" not in said, said
+        assert "error:" in said and words in said, (words, said)
+        assert not os.path.exists("bad/report.json")
+    done = run("--output", "bad", "--domain", "results/resampled.vti")
+    assert done.returncode != 0 and "an unstructured grid" in done.stderr, done.stderr
+
+
 def test_faults():
     pathlib.Path("text.vti").write_text("not an image\n")
     pathlib.Path("file").write_text("")
@@ -146,7 +224,7 @@ def test_faults():
             ("--tolerance is a percentage", "--tolerance", "small"),
             ("--control-points is a whole number", "--control-points", "63"),
             ("--segments is a whole number", "--segments", "65"),
-            ("--domain is box, segments or auto", "--domain", "ball"),
+            ("--domain is box, segments, auto or a file", "--domain", "ball"),
             ("one volume at a time", "a.vti", "b.vti"),
             ("there is no file", "absent.vti"),
             ("cannot be made", "--output", "file/below"),
@@ -161,4 +239,6 @@ def test_faults():
 
 test_results()
 test_segments()
+test_given_domain()
+test_given_faults()
 test_faults()

@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ErrorLog.h"
+#include "ReconstructionPhantom.h"
+#include "vtkPolycubeDomain.h"
+#include "vtkReconstructionReport.h"
+#include "vtkSegmentBoundary.h"
+
+#include "vtkCellData.h"
+#include "vtkFieldData.h"
+#include "vtkMeshQuality.h"
+#include "vtkPolyData.h"
+#include "vtkTable.h"
+
+#include <array>
+#include <functional>
+#include <map>
+#include <set>
+
+using namespace trivariate_testing;
+
+namespace
+{
+// The polycube that is found for segment 3.
+vtkNew<vtkUnstructuredGrid> FoundDomain(vtkImageData* image)
+{
+  vtkNew<vtkSegmentBoundary> boundary;
+  boundary->SetInputData(image);
+  boundary->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Material");
+  vtkNew<vtkPolycubeDomain> domain;
+  domain->SetInputConnection(boundary->GetOutputPort());
+  domain->Update();
+  vtkNew<vtkUnstructuredGrid> polycube;
+  polycube->DeepCopy(domain->GetPolycube());
+  return polycube;
+}
+
+// Where the corners on the surface are, by their coordinates.
+std::map<std::array<double, 3>, std::array<double, 3>> CornersOf(vtkUnstructuredGrid* polycube)
+{
+  std::map<std::array<double, 3>, std::array<double, 3>> corners;
+  for (vtkIdType p = 0; p < polycube->GetNumberOfPoints(); ++p)
+  {
+    if (polycube->GetPointData()->GetArray("CornerId")->GetTuple1(p) >= 0.0)
+    {
+      std::array<double, 3> at;
+      polycube->GetPointData()->GetArray("DomainCoordinates")->GetTuple(p, at.data());
+      polycube->GetPoint(p, corners[at].data());
+    }
+  }
+  return corners;
+}
+}
+
+//------------------------------------------------------------------------------
+TEST(TSplineReconstruction, FindsSegmentsSurfacesAndDomains)
+{
+  auto reconstruction = Reconstruct(Phantom());
+  reconstruction->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "None");
+  reconstruction->SetNumberOfSegments(2);
+  reconstruction->SetDomainToAutomatic();
+  reconstruction->Update();
+  auto* image = Output<vtkImageData>(reconstruction, 2);
+  vtkDataArray* labels = image->GetPointData()->GetArray("Segment");
+  ASSERT_NE(labels, nullptr);
+  vtkIdType wrong = 0;
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    image->GetPoint(i, x);
+    wrong += labels->GetTuple1(i) != (Radius(x) < 7.6);
+  }
+  EXPECT_LT(wrong, 30);
+  EXPECT_GT(Output<vtkPolyData>(reconstruction, 3)->GetNumberOfCells(), 500);
+  EXPECT_GT(Output<vtkPolyData>(reconstruction, 4)->GetNumberOfCells(), 500);
+  EXPECT_GE(Output<vtkUnstructuredGrid>(reconstruction, 5)->GetNumberOfCells(), 7);
+  EXPECT_GT(Output<vtkTable>(reconstruction, 1)->GetNumberOfRows(), 2);
+  EXPECT_LE(reconstruction->GetOutput()->GetNumberOfPoints(), 1500);
+
+  // Parameters of the inside and nowhere else, and hexahedra that fill it.
+  vtkPointData* fields = Output<vtkImageData>(reconstruction, 6)->GetPointData();
+  vtkIdType parameters = 0, inside = 0;
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    const bool has = fields->GetArray("ParameterMask")->GetTuple1(i) != 0.0;
+    const bool is = labels->GetTuple1(i) == 1.0;
+    EXPECT_EQ(has, fields->GetArray("Block")->GetTuple1(i) >= 0.0);
+    EXPECT_FALSE(has && !is);
+    parameters += has;
+    inside += is;
+  }
+  EXPECT_GT(parameters, 0.99 * double(inside));
+  auto* hexahedra = Output<vtkUnstructuredGrid>(reconstruction, 7);
+  EXPECT_GT(hexahedra->GetCellData()->GetArray("ScaledJacobian")->GetRange()[0], 0.0);
+  EXPECT_EQ(hexahedra->GetFieldData()->GetArray("InvertedCells")->GetComponent(0, 1), 0.0);
+  EXPECT_GT(hexahedra->GetFieldData()->GetArray("ScaledJacobian")->GetComponent(0, 1), 0.8);
+  vtkNew<vtkMeshQuality> quality;
+  quality->SetInputData(hexahedra);
+  quality->SetHexQualityMeasureToVolume();
+  quality->Update();
+  double volume = 0.0;
+  for (vtkIdType cell = 0; cell < hexahedra->GetNumberOfCells(); ++cell)
+  {
+    volume += quality->GetOutput()->GetCellData()->GetArray("Quality")->GetTuple1(cell);
+  }
+  EXPECT_NEAR(volume, 2.0 * double(inside), 0.2 * double(inside)); // of voxels of 1 x 2 x 1
+}
+
+//------------------------------------------------------------------------------
+// Over its cubes or over its box: whichever is better stands for every voxel, and is told of.
+TEST(TSplineReconstruction, TakesTheBetterOfCubesAndBox)
+{
+  const auto run = [](int domain)
+  {
+    auto reconstruction = Reconstruct(Phantom());
+    reconstruction->SetDomain(domain);
+    reconstruction->SetRMSTolerance(0.0);
+    vtkNew<vtkReconstructionReport> report;
+    report->SetInputConnection(0, reconstruction->GetOutputPort(2));
+    report->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
+    report->SetTSplineConnection(reconstruction->GetOutputPort());
+    report->Update();
+    vtkNew<vtkTable> table;
+    table->DeepCopy(report->GetOutput());
+    return table;
+  };
+  const vtkNew<vtkTable> boxes = run(vtkTSplineReconstruction::SEGMENTS);
+  const vtkNew<vtkTable> best = run(vtkTSplineReconstruction::AUTOMATIC);
+  ASSERT_EQ(best->GetNumberOfRows(), 3);
+  for (vtkIdType row = 0; row < 3; ++row)
+  {
+    EXPECT_EQ(best->GetValueByName(row, "FoundPercent").ToDouble(), 100.0);
+  }
+  EXPECT_LE(best->GetValueByName(1, "RoundTripRMSPercent").ToDouble(),
+    1.0001 * boxes->GetValueByName(1, "RoundTripRMSPercent").ToDouble());
+}
+
+//------------------------------------------------------------------------------
+// The corners found, with u, v, w called v, w, u: what comes out has them so, and stands for every
+// voxel.
+TEST(TSplineReconstruction, TakesCubesAndCornersThatAreGiven)
+{
+  const auto image = Phantom();
+  const auto given = FoundDomain(image);
+  vtkDataArray* coordinates = given->GetPointData()->GetArray("DomainCoordinates");
+  for (vtkIdType p = 0; p < given->GetNumberOfPoints(); ++p)
+  {
+    double at[3];
+    coordinates->GetTuple(p, at);
+    coordinates->SetTuple3(p, at[2], at[0], at[1]);
+  }
+  auto reconstruction = Reconstruct(image);
+  reconstruction->SetDomainToGiven();
+  reconstruction->SetInputData(1, given);
+  reconstruction->Update();
+  const auto wanted = CornersOf(given);
+  const auto got = CornersOf(Output<vtkUnstructuredGrid>(reconstruction, 5));
+  ASSERT_EQ(got.size(), wanted.size());
+  for (const auto& [at, place] : wanted)
+  {
+    ASSERT_EQ(got.count(at), 1u);
+    for (int a = 0; a < 3; ++a)
+    {
+      EXPECT_NEAR(got.at(at)[a], place[a], 0.5);
+    }
+  }
+  EXPECT_GE(Output<vtkUnstructuredGrid>(reconstruction, 5)->GetNumberOfCells(), 7); // layers
+
+  std::map<double, std::set<double>> blocks;
+  vtkPointData* data = reconstruction->GetOutput()->GetPointData();
+  for (vtkIdType p = 0; p < reconstruction->GetOutput()->GetNumberOfPoints(); ++p)
+  {
+    blocks[data->GetArray("Segment")->GetTuple1(p)].insert(data->GetArray("Block")->GetTuple1(p));
+  }
+  EXPECT_EQ(blocks[0].size(), 1u);
+  EXPECT_GE(blocks[3].size(), 7u);
+  vtkNew<vtkReconstructionReport> report;
+  report->SetInputConnection(0, reconstruction->GetOutputPort(2));
+  report->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
+  report->SetTSplineConnection(reconstruction->GetOutputPort());
+  report->Update();
+  const auto cell = [&report](const char* name)
+  { return report->GetOutput()->GetValueByName(2, name).ToDouble(); };
+  EXPECT_EQ(cell("FoundPercent"), 100.0);
+  EXPECT_LT(cell("RoundTripRMSPercent"), 2.0);
+}
+
+//------------------------------------------------------------------------------
+TEST(TSplineReconstruction, NamesWhatIsWrongWithAGivenDomain)
+{
+  const auto image = Phantom();
+  const auto found = FoundDomain(image);
+  auto reconstruction = Reconstruct(image);
+  reconstruction->SetDomainToGiven();
+  ErrorLog log(reconstruction);
+  const auto expect = [&](const std::function<void(vtkUnstructuredGrid*)>& spoil, const char* words)
+  {
+    vtkNew<vtkUnstructuredGrid> given;
+    given->DeepCopy(found);
+    spoil(given);
+    reconstruction->SetInputData(1, given);
+    reconstruction->Update();
+    const std::string text = log.TakeOnly();
+    EXPECT_NE(text.find(words), std::string::npos) << text << "\ninstead of: " << words;
+    EXPECT_EQ(reconstruction->GetOutput()->GetNumberOfPoints(), 0) << words;
+  };
+  const auto corner = [](vtkUnstructuredGrid* given, int u, int v, int w)
+  {
+    for (vtkIdType p = 0; p < given->GetNumberOfPoints(); ++p)
+    {
+      const double* at = given->GetPointData()->GetArray("DomainCoordinates")->GetTuple3(p);
+      if (at[0] == u && at[1] == v && at[2] == w &&
+          given->GetPointData()->GetArray("CornerId")->GetTuple1(p) >= 0.0)
+      {
+        return p;
+      }
+    }
+    return vtkIdType(-1);
+  };
+  expect([](auto* given) { given->Initialize(); }, "no cubes");
+  expect([](auto* given) { given->GetPointData()->RemoveArray("DomainCoordinates"); },
+    "no array DomainCoordinates of 3");
+  expect([](auto* given) { given->GetCellData()->RemoveArray("Segment"); }, "no array Segment");
+  expect([](auto* given) { given->GetCellData()->GetArray("Segment")->Fill(5); },
+    "Segment 5 of the given domain: ");
+  expect([](auto* given) { given->GetCellData()->GetArray("Patch")->Fill(0); },
+    "Segment 3 of the given domain: It has blocks along its surface, but no cubes");
+  expect([&](auto* given)
+    { given->GetPointData()->GetArray("CornerId")->SetTuple1(corner(given, 1, 0, 1), -1); },
+    "The corner at (1, 0, 1) has no place");
+  expect(
+    [&](auto* given)
+    {
+      given->GetPointData()
+        ->GetArray("DomainCoordinates")
+        ->SetTuple3(corner(given, 1, 0, 1), 1, 1, 1);
+    },
+    "The corner at (1, 1, 1) is there twice");
+  expect([&](auto* given) { given->GetPoints()->SetPoint(corner(given, 0, 1, 0), 90.0, 0.0, 0.0); },
+    "at (0, 1, 0)");
+  expect([](auto* given) { given->GetPointData()->GetArray("DomainCoordinates")->Fill(2); },
+    "is no cube of the lattice");
+  expect(
+    [&](auto* given)
+    {
+      vtkDataArray* coordinates = given->GetPointData()->GetArray("DomainCoordinates");
+      for (vtkIdType p = 0; p < given->GetNumberOfPoints(); ++p)
+      {
+        coordinates->SetComponent(p, 0, 1.0 - coordinates->GetComponent(p, 0));
+      }
+    },
+    "mirrored");
+  reconstruction->SetInputConnection(1, nullptr);
+  reconstruction->Update();
+  EXPECT_NE(log.TakeOnly().find("second input is not connected"), std::string::npos);
+}
