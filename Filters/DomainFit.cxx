@@ -130,11 +130,15 @@ FilledDomains FillDomains(vtkImageData* image, vtkPolyData* patches, vtkUnstruct
   for (vtkIdType cell = 0; cell < domains.Hexahedra->GetNumberOfCells(); ++cell)
   {
     const auto segment = static_cast<int>(cells->GetArray("Segment")->GetTuple1(cell));
-    domains.Segments.insert(segment);
     if (cells->GetArray("ScaledJacobian")->GetTuple1(cell) <= 0.0)
     {
       domains.Folded.insert(segment);
     }
+  }
+  vtkDataArray* owners = domains.Polycubes->GetCellData()->GetArray("Segment");
+  for (vtkIdType block = 0; block < domains.Polycubes->GetNumberOfCells(); ++block)
+  {
+    ++domains.BlocksOf[static_cast<int>(owners->GetTuple1(block))];
   }
   return domains;
 }

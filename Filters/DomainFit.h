@@ -10,6 +10,7 @@
 
 #include "vtkSmartPointer.h"
 
+#include <map>
 #include <set>
 #include <vector>
 
@@ -30,8 +31,8 @@ struct FilledDomains
   /// Output 1 of vtkHexRemesh, with the field data InvertedCells (before and after repair) and
   /// ScaledJacobian (least and mean).
   vtkSmartPointer<vtkUnstructuredGrid> Hexahedra;
-  std::set<int> Segments; ///< that have a domain
-  std::set<int> Folded;   ///< those with an inverted hexahedron
+  std::map<int, int> BlocksOf; ///< of the segments that have a domain: how many blocks
+  std::set<int> Folded;        ///< those with an inverted hexahedron
 };
 
 /**

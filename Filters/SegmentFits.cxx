@@ -205,7 +205,7 @@ FittedPart FitPart(vtkImageData* image, const Part& part, std::int32_t number,
   std::vector<std::int32_t>& partOf, std::string& why)
 {
   const Cut cut = CutOut(image, part, number, partOf, options);
-  const bool hasDomain = number > 0 && options.Domains->Segments.count(part.Label) > 0;
+  const bool hasDomain = number > 0 && options.Domains->BlocksOf.count(part.Label) > 0;
   const double boxed = hasDomain ? from + ShareOfBox * (to - from) : to;
   const double aligned = to - 0.1 * (to - from);
   if (!hasDomain)
@@ -313,18 +313,28 @@ TSplineModel FitSegments(vtkImageData* image, const SegmentFitOptions& options, 
   std::stable_sort(order.begin(), order.end(),
     [&shares](std::size_t a, std::size_t b)
     { return a == 0 || b == 0 ? b == 0 && a != 0 : shares[a] < shares[b]; });
-  double left = options.MaximumControlPoints, open = 1.0, done = 0.0;
-  auto waiting = static_cast<double>(parts.size());
+  const auto fewest = [&options, &parts](std::size_t p)
+  {
+    // Over a domain that is wanted every block needs some.
+    const auto domain = options.Domains->BlocksOf.find(parts[p].Label);
+    const bool wanted = !options.Compared && domain != options.Domains->BlocksOf.end();
+    return FewestControlPoints * (wanted ? domain->second : 1);
+  };
+  double left = options.MaximumControlPoints, open = 1.0, done = 0.0, reserved = 0.0;
+  for (const std::size_t p : order)
+  {
+    reserved += fewest(p);
+  }
   std::vector<FittedPart> fitted(parts.size());
   for (const std::size_t p : order)
   {
     const auto number = static_cast<std::int32_t>(p);
     SegmentFitOptions own = options;
     // As many as its share, but those after it must have some.
-    --waiting;
-    const double most = left - FewestControlPoints * waiting;
+    reserved -= fewest(p);
+    const double most = left - reserved;
     const double wanted = open > 0.0 ? std::min(most, left * shares[p] / open) : most;
-    own.MaximumControlPoints = std::max(FewestControlPoints, static_cast<int>(wanted));
+    own.MaximumControlPoints = std::max(fewest(p), static_cast<int>(wanted));
     const double range = parts[p].High - parts[p].Low;
     own.RmsTolerance =
       range > 0.0 ? std::min(100.0, options.RmsTolerance * (high - low) / range) : 0.0;

@@ -240,6 +240,18 @@ GatherBytes GatherBytesOf(vtkMultiProcessController* controller)
   };
 }
 
+namespace
+{
+// What grows with the number of segments: two probabilities a segment for each point near an
+// interface, at the worst all of them, and how often grey levels are neighbours in 13 directions.
+double BytesOfSegments(const SegmentationOptions& options, Index points)
+{
+  const double segments = options.Segments > 0 ? options.Segments : MaximumAutomaticSegments;
+  const double levels = options.Texture.GreyLevels;
+  return segments * (8.0 * static_cast<double>(points) + 12.0 * 13.0 * levels * levels);
+}
+}
+
 //------------------------------------------------------------------------------
 std::string SegmentationFault(vtkImageData* image, vtkDataArray* array, const char* wanted,
   const Extent& own, const Extent& whole, const SegmentationOptions& options)
@@ -316,10 +328,10 @@ std::string SegmentationFault(vtkImageData* image, vtkDataArray* array, const ch
   const double attributes = options.Texture.Attributes.empty()
                               ? 0.0
                               : static_cast<double>(TextureOutputNames(options.Texture).size());
-  const std::string memory =
-    MemoryFault("The segmentation", static_cast<double>(CountOf(held)) *
-                                        (48.0 + attributes * (options.KeepAttributes ? 8.0 : 4.0)) +
-                                      25.0 * static_cast<double>(CountOf(whole)));
+  const std::string memory = MemoryFault("The segmentation",
+    static_cast<double>(CountOf(held)) *
+        (48.0 + attributes * (options.KeepAttributes ? 8.0 : 4.0)) +
+      25.0 * static_cast<double>(CountOf(whole)) + BytesOfSegments(options, CountOf(whole)));
   return memory.empty() ? BadValue(image, array, name) : memory;
 }
 

@@ -149,6 +149,24 @@ int vtkTSplineReconstruction::FillOutputPortInformation(int port, vtkInformation
 }
 
 //------------------------------------------------------------------------------
+// Images that are not made must not be asked for: whatever extent is wanted of them would never be
+// there, and all be done again for it.
+int vtkTSplineReconstruction::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  const int none[6] = { 0, -1, 0, -1, 0, -1 };
+  for (const int port : { SEGMENTED, FIELDS })
+  {
+    if (this->Domain == BOX || (port == FIELDS && this->Domain == SEGMENTS))
+    {
+      outputVector->GetInformationObject(port)->Set(
+        vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), none, 6);
+    }
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
 int vtkTSplineReconstruction::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
@@ -329,6 +347,10 @@ void vtkTSplineReconstruction::FitParts(vtkImageData* image, bool labelled,
 {
   vtkImageData* segments = vtkImageData::GetData(outputVector, SEGMENTED);
   segments->ShallowCopy(this->Split(image, labelled, chain));
+  if (this->Domain != SEGMENTS)
+  {
+    vtkImageData::GetData(outputVector, FIELDS)->ShallowCopy(segments);
+  }
   FilledDomains domains;
   double range[2];
   segments->GetPointData()->GetArray("Segment")->GetRange(range);

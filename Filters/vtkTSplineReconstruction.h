@@ -42,9 +42,9 @@
  * With Domain AUTOMATIC or GIVEN also, of those segments that have a domain:
  * Port 4: vtkPolyData, patches, of vtkPolycubeDomain. Port 5: vtkUnstructuredGrid, polycubes, and
  * port 6: vtkImageData, fields, both of vtkVolumeParameterization (frames, Parameter,
- * ParameterMask, Block). Port 7: vtkUnstructuredGrid, hexahedra of vtkHexRemesh, with the field
- * data InvertedCells (double x 2, before and after repair) and ScaledJacobian (double x 2, least
- * and mean).
+ * ParameterMask, Block; without domains the image of port 2). Port 7: vtkUnstructuredGrid,
+ * hexahedra of vtkHexRemesh, with the field data InvertedCells (double x 2, before and after
+ * repair) and ScaledJacobian (double x 2, least and mean).
  *
  * @par Cost
  * The sum of the steps; memory that of the most expensive one. Threaded with vtkSMPTools; the
@@ -128,7 +128,8 @@ public:
 
   ///@{
   /**
-   * Most control points of all segments together, though no segment has fewer than 64. They are
+   * Most control points of all segments together, though every segment may have 64, and one with a
+   * given domain 64 for each of its blocks. They are
    * shared out by how much the values bend within a segment and by its size. Valid range [64,
    * VTK_INT_MAX]. Default is 50000.
    */
@@ -162,6 +163,8 @@ protected:
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,

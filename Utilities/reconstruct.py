@@ -218,7 +218,9 @@ class Segments:
         self.labelled = simple.OutputPort(reconstruction, 2)
         self.surfaces = not_empty(reconstruction, 3)
         self.take_domains(reconstruction, 4, 5)
-        self.fields = not_empty(reconstruction, 6)
+        fields = simple.OutputPort(reconstruction, 6)
+        if output_of(fields).GetPointData().HasArray("Parameter"):
+            self.fields = fields
         self.hexahedra = not_empty(reconstruction, 7)
 
     def quality(self):

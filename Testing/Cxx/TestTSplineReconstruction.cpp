@@ -4,6 +4,7 @@
 #include "vtkReconstructionReport.h"
 #include "vtkTSplineFit.h"
 
+#include "vtkCallbackCommand.h"
 #include "vtkTable.h"
 
 #include <set>
@@ -78,6 +79,29 @@ TEST(TSplineReconstruction, MeetsTheToleranceInEachSegment)
     EXPECT_LE(report->GetOutput()->GetValueByName(row, "RoundTripRMSPercent").ToDouble(), 0.8);
   }
   EXPECT_LT(reconstruction->GetOutput()->GetNumberOfPoints(), 1500);
+}
+
+//------------------------------------------------------------------------------
+// However many of the outputs are asked for.
+TEST(TSplineReconstruction, RunsOnceForAllOutputs)
+{
+  for (const int domain : { vtkTSplineReconstruction::BOX, vtkTSplineReconstruction::SEGMENTS,
+         vtkTSplineReconstruction::AUTOMATIC })
+  {
+    auto reconstruction = Reconstruct(Phantom());
+    reconstruction->SetDomain(domain);
+    reconstruction->SetMaximumNumberOfControlPoints(200);
+    int runs = 0;
+    vtkNew<vtkCallbackCommand> count;
+    count->SetClientData(&runs);
+    count->SetCallback([](vtkObject*, unsigned long, void* n, void*) { ++*static_cast<int*>(n); });
+    reconstruction->AddObserver(vtkCommand::StartEvent, count);
+    for (int port = 0; port < reconstruction->GetNumberOfOutputPorts(); ++port)
+    {
+      reconstruction->Update(port);
+    }
+    EXPECT_EQ(runs, 1) << domain;
+  }
 }
 
 //------------------------------------------------------------------------------
