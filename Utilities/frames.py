@@ -32,7 +32,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 import picture
 import views
 
-RUNS = ["fuel=15", "hydrogen_atom=20", "tooth=105", "ankle_128=40", "walnut=5000"]
+RUNS = ["hydrogen_atom=20", "fuel=15", "tooth=105", "ankle_128=40", "walnut=5000"]
 root = pathlib.Path(__file__).resolve().parent.parent
 data = pathlib.Path(os.environ.get("TRIVARIATE_DATA_DIR", root.parent / "shared" / "data"))
 
