@@ -12,6 +12,10 @@ class vtkUnstructuredGrid;
 
 namespace trivariate
 {
+/// How far nodes of a block mesh may leave the surface, in voxels: by about as much as the surface
+/// may be off, and as chords of cells must to hold its volume.
+constexpr double FreedomOfNodes = 0.5;
+
 struct DomainInput
 {
   BlockDomain Domain;

@@ -134,6 +134,7 @@ ParameterDomain ParameterizeDomain(const ImageSamples& samples, vtkPolyData* pat
   SolveSegments(samples, patches, space, settings.Options, domain, execution.Part(0.0, 0.3));
   BlockMeshOptions options;
   options.CellLength = settings.CellLength * std::cbrt(space.Spacing.prod());
+  options.Freedom = FreedomOfNodes * space.Spacing.minCoeff();
   domain.Mesh =
     MakeBlockMesh(domain.Input.Domain, options, execution.Part(0.3, 0.9), &domain.Report);
   LocateVoxels(samples, space, domain, execution.Part(0.9, 1.0));

@@ -112,10 +112,10 @@ void vtkHexRemesh::Remesh(vtkInformationVector** inputVector, vtkInformationVect
   }
 
   const double* spacing = image->GetSpacing();
+  const double voxel = std::min({ spacing[0], spacing[1], spacing[2] });
   BlockMeshOptions options;
-  options.CellLength = this->EdgeLength > 0.0
-                         ? this->EdgeLength
-                         : 2.0 * std::min({ spacing[0], spacing[1], spacing[2] });
+  options.CellLength = this->EdgeLength > 0.0 ? this->EdgeLength : 2.0 * voxel;
+  options.Freedom = FreedomOfNodes * voxel;
   options.CellsPerBlock = this->CellsPerBlock;
   const double cells = CountCells(SizesOf(domain, options));
   if (cells > static_cast<double>(this->MostCells))

@@ -4,12 +4,13 @@
  * @class   vtkHexRemesh
  * @brief   hexahedra from a domain: a structured grid in each block, untangled
  *
- * The nodes of a block lie on lines of constant u, v and w. Nodes of a patch lie on its surface,
- * those of a border between patches on the border; blocks share the nodes of common faces, edges
- * and corners bit by bit, also from one segment to another. The mesh is made coarse, untangled and
- * made even with the foldover-free energy of Garanzha et al., then refined and treated again until
- * its cells are as long as wanted. With block meshes as fourth input only these are resampled and,
- * where that folds cells, untangled.
+ * The nodes of a block lie on lines of constant u, v and w; blocks share the nodes of common faces,
+ * edges and corners bit by bit, also from one segment to another. The mesh is made coarse,
+ * untangled and made even with the foldover-free energy of Garanzha et al., then refined and
+ * treated again until its cells are as long as wanted. Nodes of the surface slide on it, held by
+ * edges that are sharp and by curves where three surfaces meet, and faces of cells are drawn to
+ * where the surface is: so that they hold its volume, nodes may leave it by half a voxel. With
+ * block meshes as fourth input only these are resampled and, where that folds cells, untangled.
  *
  * @par Input
  * Port 0: vtkImageData, whose point arrays are sampled at the nodes (trilinear; labels, frames and

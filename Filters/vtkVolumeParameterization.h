@@ -12,10 +12,11 @@
  * the surface, conjugate gradients with multigrid.
  *
  * Second, a block mesh: a structured grid of hexahedra in each block of the domain, whose faces on
- * patches lie on the surface and which share their nodes where blocks are glued. Cells that are
- * inverted are repaired by a foldover-free energy, nodes on the surface sliding on it. The block
- * mesh is the inverse of a parameterization that is one-to-one, around singular edges too: the
- * parameter of a voxel is where it lies in the mesh.
+ * patches lie on the surface, to half a voxel, and which share their nodes where blocks are glued.
+ * Cells that are inverted are repaired by a foldover-free energy, nodes on the surface sliding on
+ * it, also over the borders of patches but where the surface is sharp. The block mesh is the
+ * inverse of a parameterization that is one-to-one, around singular edges too: the parameter of a
+ * voxel is where it lies in the mesh.
  *
  * Segments that share a surface share its nodes, and so its parameters.
  *

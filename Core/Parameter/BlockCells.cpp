@@ -21,22 +21,6 @@ double Weight(int corner, int axis, double t)
 {
   return EndOfCorner(corner, axis) ? t : 1.0 - t;
 }
-
-// d x / d (u, v, w) of the trilinear map.
-Matrix3d JacobianAt(const std::vector<Vector3d>& places, const BlockPoints& cell, const Vector3d& t)
-{
-  Matrix3d jacobian = Matrix3d::Zero();
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const double others = Weight(corner, (axis + 1) % 3, t[(axis + 1) % 3]) *
-                            Weight(corner, (axis + 2) % 3, t[(axis + 2) % 3]);
-      jacobian.col(axis) += (EndOfCorner(corner, axis) ? others : -others) * places[cell[corner]];
-    }
-  }
-  return jacobian;
-}
 }
 
 //------------------------------------------------------------------------------
@@ -149,6 +133,30 @@ std::vector<Vector3d> CellTargets(const BlockMesh& mesh)
   return lengths;
 }
 
+//------------------------------------------------------------------------------
+Vector3d ShapeGradient(int corner, const Vector3d& at)
+{
+  Vector3d gradient;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int second = (axis + 1) % 3, third = (axis + 2) % 3;
+    const double others = Weight(corner, second, at[second]) * Weight(corner, third, at[third]);
+    gradient[axis] = EndOfCorner(corner, axis) ? others : -others;
+  }
+  return gradient;
+}
+
+Matrix3d JacobianAt(
+  const std::vector<Vector3d>& places, const BlockPoints& cell, const Vector3d& at)
+{
+  Matrix3d jacobian = Matrix3d::Zero();
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    jacobian += places[cell[corner]] * ShapeGradient(corner, at).transpose();
+  }
+  return jacobian;
+}
+
 double HexahedronVolume(const std::vector<Vector3d>& places, const BlockPoints& cell)
 {
   // The determinant is of degree 2 in each variable: 2 x 2 x 2 Gauss points are exact.
@@ -162,9 +170,14 @@ double HexahedronVolume(const std::vector<Vector3d>& places, const BlockPoints& 
   return volume;
 }
 
-double LeastDeterminant(const std::vector<Vector3d>& places, const BlockPoints& cell)
+Vector3d GaussPoint(int i)
 {
   const double gauss[3] = { 0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15) };
+  return { gauss[i % 3], gauss[i / 3 % 3], gauss[i / 9] };
+}
+
+double LeastDeterminant(const std::vector<Vector3d>& places, const BlockPoints& cell)
+{
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 8; ++i)
   {
@@ -173,8 +186,7 @@ double LeastDeterminant(const std::vector<Vector3d>& places, const BlockPoints& 
   }
   for (int i = 0; i < 27; ++i)
   {
-    const Vector3d t(gauss[i % 3], gauss[i / 3 % 3], gauss[i / 9]);
-    least = std::min(least, JacobianAt(places, cell, t).determinant());
+    least = std::min(least, JacobianAt(places, cell, GaussPoint(i)).determinant());
   }
   return least;
 }

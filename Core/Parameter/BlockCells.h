@@ -41,8 +41,18 @@ private:
  */
 std::vector<Eigen::Vector3d> CellTargets(const BlockMesh& mesh);
 
+/// How the weight of a corner in the trilinear map changes along (u, v, w).
+Eigen::Vector3d ShapeGradient(int corner, const Eigen::Vector3d& at);
+
+/// d x / d (u, v, w) of the trilinear map.
+Eigen::Matrix3d JacobianAt(
+  const std::vector<Eigen::Vector3d>& places, const BlockPoints& cell, const Eigen::Vector3d& at);
+
 /// The volume of a trilinear hexahedron, exactly.
 double HexahedronVolume(const std::vector<Eigen::Vector3d>& places, const BlockPoints& cell);
+
+/// Point i of the 3 x 3 x 3 Gauss points.
+Eigen::Vector3d GaussPoint(int i);
 
 /// The least determinant of the trilinear map at the corners of a hexahedron and at its 3 x 3 x 3
 /// Gauss points.

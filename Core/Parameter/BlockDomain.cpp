@@ -198,6 +198,28 @@ double BlockDomain::EdgeLength(Index from, Index to) const
 }
 
 //------------------------------------------------------------------------------
+std::vector<PatchFace> PatchFaces(const BlockDomain& domain, const BlockMesh& mesh)
+{
+  std::vector<PatchFace> faces(domain.Patches.size());
+  for (std::size_t b = 0; b < domain.Blocks.size(); ++b)
+  {
+    for (int face = 0; face < 6; ++face)
+    {
+      const int axis = face / 2, side = face % 2;
+      const Index patch = domain.PatchOn(FacePoints(domain.Blocks[b], axis, side));
+      if (patch >= 0)
+      {
+        const std::array<int, 3>& n = mesh.Sizes[b];
+        const Index block = static_cast<Index>(b);
+        faces[patch] = { block, axis, side, { n[axis == 0 ? 1 : 0], n[axis == 2 ? 1 : 2] },
+          mesh.FaceNodes(block, axis, side) };
+      }
+    }
+  }
+  return faces;
+}
+
+//------------------------------------------------------------------------------
 BlockDomain DomainOfSegment(
   const DomainBlocks& blocks, const SegmentDomain& outer, const SegmentDomain* inner, int segment)
 {

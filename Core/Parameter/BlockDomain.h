@@ -65,6 +65,19 @@ private:
   std::map<std::array<Index, 2>, std::vector<Index>> Borders; // from the lesser point
 };
 
+/// The face of a block that stands on a patch.
+struct PatchFace
+{
+  Index Block = -1;
+  int Axis = 0, Side = 0;
+  std::array<int, 2> Cells{}; ///< along its two axes in ascending order
+  std::vector<Index> Nodes;   ///< the first axis fastest
+  Index NodeAt(int s, int t) const { return this->Nodes[s + (this->Cells[0] + 1) * t]; }
+};
+
+/// Of each patch one face, where two blocks stand on it that of the last.
+std::vector<PatchFace> PatchFaces(const BlockDomain& domain, const BlockMesh& mesh);
+
 /// The blocks of one segment, with its surface; of a shell also with that of the inner one.
 BlockDomain DomainOfSegment(const DomainBlocks& blocks, const SegmentDomain& outer,
   const SegmentDomain* inner = nullptr, int segment = 1);

@@ -36,6 +36,25 @@ Sizes Halved(Sizes sizes)
   }
   return sizes;
 }
+
+// Of the edges of cells along edges of blocks.
+double MeanLength(const BlockDomain& domain, const Sizes& sizes)
+{
+  double length = 0.0, cells = 0.0;
+  for (std::size_t b = 0; b < sizes.size(); ++b)
+  {
+    const BlockPoints& block = domain.Blocks[b];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      for (int corner = 0; corner < 8; ++corner)
+      {
+        length += domain.EdgeLength(block[corner], block[AcrossAxis(corner, axis)]);
+        cells += sizes[b][axis];
+      }
+    }
+  }
+  return length / cells;
+}
 }
 
 //------------------------------------------------------------------------------
@@ -71,22 +90,28 @@ BlockMesh MakeBlockMesh(const BlockDomain& domain, const BlockMeshOptions& optio
     levels.push_back(Halved(levels.back()));
   }
   const std::vector<PatchMap> maps = MapPatches(domain, execution.Part(0.0, 0.1));
-  BlockMesh mesh;
+  const DomainSurface surface(domain, MeanLength(domain, levels[0]));
+  BlockMesh mesh = StartOfBlockMesh(domain, maps, levels.back());
+  SlidingNodes sliding(surface, mesh, options.Freedom);
+  BoundaryFit fit(surface, mesh);
   for (std::size_t level = levels.size(); level-- > 0;)
   {
-    const BlockMesh start = StartOfBlockMesh(domain, maps, levels[level]);
-    const SlidingNodes sliding(domain, start);
-    mesh = mesh.Places.empty() ? start : Resampled(mesh, domain.Blocks, levels[level]);
-    sliding.SendHome(mesh.Places);
+    if (level + 1 < levels.size())
+    {
+      const BlockMesh coarse = std::move(mesh);
+      mesh = Resampled(coarse, domain.Blocks, levels[level]);
+      sliding = SlidingNodes(mesh, coarse, sliding);
+      fit = BoundaryFit(mesh, fit);
+    }
     // Each level is about eight times the work of the one before.
     const double end = std::pow(0.125, level);
-    Repair(mesh, sliding, CellTargets(mesh), options.Repair,
+    Repair(mesh, sliding, fit, CellTargets(mesh), options.Repair,
       execution.Part(0.1 + 0.9 * end / 8.0, 0.1 + 0.9 * end));
-    if (report && level == 0)
-    {
-      report->Start = QualityOf(start, execution);
-      report->End = QualityOf(mesh, execution);
-    }
+  }
+  if (report)
+  {
+    report->Start = QualityOf(StartOfBlockMesh(domain, maps, levels[0]), execution);
+    report->End = QualityOf(mesh, execution);
   }
   return mesh;
 }
@@ -96,15 +121,13 @@ BlockMesh RefineBlockMesh(const BlockDomain& domain, const BlockMesh& mesh,
   const BlockMeshOptions& options, const Execution& execution, BlockMeshReport* report)
 {
   BlockMesh refined = Resampled(mesh, domain.Blocks, SizesOf(domain, options));
-  const SlidingNodes onSurface(domain, refined);
-  for (std::size_t node = 0; node < refined.Places.size(); ++node)
-  {
-    refined.Places[node] = onSurface.Allowed(static_cast<Index>(node), refined.Places[node]);
-  }
+  const DomainSurface surface(domain, MeanLength(domain, refined.Sizes));
+  SlidingNodes sliding(surface, refined, options.Freedom);
+  BoundaryFit fit(surface, refined);
   const CellQuality before = QualityOf(refined, execution);
   RepairOptions repair = options.Repair;
   repair.MostSmoothing = before.Inverted > 0 ? repair.MostSmoothing : 0;
-  Repair(refined, SlidingNodes(domain, refined), CellTargets(refined), repair, execution);
+  Repair(refined, sliding, fit, CellTargets(refined), repair, execution);
   if (report)
   {
     *report = { before, QualityOf(refined, execution) };

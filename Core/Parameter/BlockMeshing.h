@@ -13,6 +13,7 @@ struct BlockMeshOptions
   double CellLength = 0.0; ///< wanted, in space
   int FewestCells = 2;     ///< along an edge of a block
   int CellsPerBlock = 0;   ///< along each edge, whatever its length; 0: CellLength decides
+  double Freedom = 0.0;    ///< how far nodes may leave the surface, in space
   RepairOptions Repair;
 };
 

@@ -20,6 +20,9 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr int MostHalvings = 8;
+constexpr double AtEnd = 0.99;
+constexpr int AssignEvery = 3; // sweeps
+constexpr double LateFitting = 0.1;
 constexpr double LongestStep = 1.0; // in wanted lengths
 constexpr double Sharp = 1e-8;      // the regularisation where nothing is inverted
 constexpr double Flat = 0.01;       // a determinant so small is treated as if it were inverted
@@ -37,15 +40,17 @@ double Regularisation(double least)
 class Sweeper
 {
 public:
-  Sweeper(BlockMesh& mesh, const SlidingNodes& sliding, const std::vector<Vector3d>& targets,
-    double homing)
-    : Homing(homing)
+  Sweeper(BlockMesh& mesh, SlidingNodes& sliding, BoundaryFit& fit,
+    const std::vector<Vector3d>& targets, double fitting)
+    : Fitting(fitting)
     , Mesh(mesh)
     , Sliding(sliding)
+    , Fit(fit)
     , Targets(targets)
     , Cells(mesh)
     , Active(mesh.Places.size(), 1)
     , Determinants(this->Cells.Cells.size())
+    , Twisted(this->Cells.Cells.size(), 0)
   {
   }
 
@@ -60,18 +65,20 @@ public:
 
   double Energy(double epsilon, const Execution& execution) const;
 
-  double Homing;
+  double Fitting;
 
 private:
   void Terms(Index node, std::vector<CornerTerm>& terms) const;
   void Move(Index node, std::vector<CornerTerm>& terms);
 
   BlockMesh& Mesh;
-  const SlidingNodes& Sliding;
+  SlidingNodes& Sliding;
+  BoundaryFit& Fit;
   const std::vector<Vector3d>& Targets;
   BlockCells Cells;
   std::vector<char> Active;
   std::vector<double> Determinants; // the least of each cell, of its target
+  std::vector<char> Twisted;        // cells that were inverted: their inside counts as well
 };
 
 void Sweeper::Terms(Index node, std::vector<CornerTerm>& terms) const
@@ -87,6 +94,10 @@ void Sweeper::Terms(Index node, std::vector<CornerTerm>& terms) const
     {
       const int corner = AcrossAxis(use->Corner, axis);
       terms.push_back(TermOf(this->Mesh.Places, cell, corner, axis, lengths));
+    }
+    for (int i = 0; i < 27 && this->Twisted[use->Cell]; ++i)
+    {
+      terms.push_back(TermAt(this->Mesh.Places, cell, GaussPoint(i), use->Corner, lengths));
     }
   }
 }
@@ -121,49 +132,61 @@ void Sweeper::Move(Index node, std::vector<CornerTerm>& terms)
 
   Vector3d& place = this->Mesh.Places[node];
   const Vector3d& lengths = this->Targets[this->Cells.BlockOf[this->Cells.UsesBegin(node)->Cell]];
-  const Vector3d& home = this->Sliding.Home(node);
-  const double homing =
-    kind == SlidingNodes::Free ? 0.0 : this->Homing * terms.size() / lengths.squaredNorm();
-  energy += homing * (place - home).squaredNorm();
-  gradient += 2.0 * homing * (place - home);
-  hessian.diagonal().array() += 2.0 * homing;
-
-  Vector3d step = Vector3d::Zero();
-  const int freedom = kind == SlidingNodes::OnBorder ? 1 : kind == SlidingNodes::OnPatch ? 2 : 3;
-  Matrix3d basis;
-  this->Sliding.Allowed(node, place, basis);
-  const auto free = basis.leftCols(freedom);
-  const Eigen::MatrixXd reduced = free.transpose() * hessian * free;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(reduced);
-  const Eigen::VectorXd slope = eigen.eigenvectors().transpose() * (free.transpose() * gradient);
-  const Eigen::VectorXd curve = eigen.eigenvalues().cwiseAbs();
-  const double flattest = 1e-9 * curve.maxCoeff();
-  step = -free *
-         (eigen.eigenvectors() * slope.cwiseQuotient(curve.cwiseMax(std::max(flattest, 1e-300))));
-  const double longest = LongestStep * lengths.maxCoeff();
-  const double length = step.norm();
-  if (!(length > 0.0) || !std::isfinite(length))
+  BoundaryFit::Term fit;
+  if (kind != SlidingNodes::Free)
   {
-    return;
+    fit = this->Fit.TermOf(node, this->Mesh.Places);
+    gradient += this->Fitting * fit.Slope;
+    hessian += 2.0 * this->Fitting * fit.Curve;
   }
-  step *= std::min(1.0, longest / length);
-
-  for (int halving = 0; halving < MostHalvings; ++halving, step *= 0.5)
+  const auto tryStep = [&](int freedom, const Matrix3d& basis)
   {
-    const Vector3d candidate = kind == SlidingNodes::Free
-                                 ? Vector3d(place + step)
-                                 : this->Sliding.Allowed(node, place + step);
-    const Vector3d moved = candidate - place;
-    double there = homing * (candidate - home).squaredNorm();
-    for (const CornerTerm& term : terms)
+    const auto free = basis.leftCols(freedom);
+    const Eigen::MatrixXd reduced = free.transpose() * hessian * free;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(reduced);
+    const Eigen::VectorXd slope = eigen.eigenvectors().transpose() * (free.transpose() * gradient);
+    const Eigen::VectorXd curve = eigen.eigenvalues().cwiseAbs();
+    const double flattest = std::max(1e-9 * curve.maxCoeff(), 1e-300);
+    Vector3d step = -free * (eigen.eigenvectors() * slope.cwiseQuotient(curve.cwiseMax(flattest)));
+    const double length = step.norm();
+    if (!(length > 0.0) || !std::isfinite(length))
     {
-      there += CornerEnergy(term.TraceAt(moved), term.DeterminantAt(moved), epsilon);
+      return false;
     }
-    if (there < energy * (1.0 - 1e-12))
+    step *= std::min(1.0, LongestStep * lengths.maxCoeff() / length);
+    for (int halving = 0; halving < MostHalvings; ++halving, step *= 0.5)
     {
-      place = candidate;
-      return;
+      SurfaceFoot foot;
+      const Vector3d candidate = this->Sliding.Allowed(node, place + step, foot);
+      const Vector3d moved = candidate - place;
+      double there = this->Fitting * fit.At(moved);
+      for (const CornerTerm& term : terms)
+      {
+        there += CornerEnergy(term.TraceAt(moved), term.DeterminantAt(moved), epsilon);
+      }
+      if (there < energy * (1.0 - 1e-12))
+      {
+        place = candidate;
+        this->Sliding.Step(node, foot);
+        return true;
+      }
     }
+    return false;
+  };
+  const Matrix3d basis = this->Sliding.BasisAt(node, place);
+  if (kind == SlidingNodes::OnSurface)
+  {
+    // Off the surface as far as that goes the step is along it.
+    const double off = (place - this->Sliding.FootOf(node).Place).norm();
+    const int first = off < AtEnd * this->Sliding.Freedom() ? 3 : 2;
+    if (!tryStep(first, basis))
+    {
+      tryStep(5 - first, basis);
+    }
+  }
+  else
+  {
+    tryStep(kind == SlidingNodes::OnBorder ? 1 : 3, basis);
   }
 }
 
@@ -225,6 +248,7 @@ double Sweeper::LeastDeterminant(const Execution& execution)
         const double target = this->Targets[this->Cells.BlockOf[c]].prod();
         this->Determinants[c] =
           trivariate::LeastDeterminant(this->Mesh.Places, this->Cells.Cells[c]) / target;
+        this->Twisted[c] = this->Twisted[c] || this->Determinants[c] <= 0.0;
       }
     });
   return *std::min_element(this->Determinants.begin(), this->Determinants.end());
@@ -288,36 +312,43 @@ CellQuality QualityOf(const BlockMesh& mesh, const Execution& execution)
 }
 
 //------------------------------------------------------------------------------
-void Repair(BlockMesh& mesh, const SlidingNodes& sliding, const std::vector<Vector3d>& targets,
-  const RepairOptions& options, const Execution& execution)
+void Repair(BlockMesh& mesh, SlidingNodes& sliding, BoundaryFit& fit,
+  const std::vector<Vector3d>& targets, const RepairOptions& options, const Execution& execution)
 {
-  Sweeper sweeper(mesh, sliding, targets, options.Homing);
+  Sweeper sweeper(mesh, sliding, fit, targets, options.Fitting);
   const double all = options.MostUntangling + options.MostSmoothing;
-  double least = sweeper.LeastDeterminant(execution);
-  for (int sweep = 0; sweep < options.MostUntangling && least <= 0.0; ++sweep)
+  double energy = std::numeric_limits<double>::infinity();
+  for (int sweep = 0, untangling = 0, smoothing = 0;
+       untangling < options.MostUntangling && smoothing < options.MostSmoothing; ++sweep)
   {
-    execution.Check(sweep / all);
-    // Where folds stay, the nodes around them may go far from home.
-    const bool late = sweep > options.MostUntangling / 3;
-    sweeper.Homing = late ? 0.0 : options.Homing;
-    sweeper.Activate(sweep < WholeSweeps || (!late && sweep % WholeEvery == 0));
-    sweeper.Sweep(execution);
-    least = sweeper.LeastDeterminant(execution);
-  }
-  sweeper.Homing = options.Homing;
-  sweeper.Activate(true);
-  const double epsilon = Regularisation(least);
-  double energy = sweeper.Energy(epsilon, execution);
-  for (int sweep = 0; sweep < options.MostSmoothing; ++sweep)
-  {
-    execution.Check((options.MostUntangling + sweep) / all);
-    sweeper.Sweep(execution);
-    const double after = sweeper.Energy(epsilon, execution);
-    if (after > (1.0 - options.Settled) * energy)
+    execution.Check((untangling + smoothing) / all);
+    if (sweep % AssignEvery == 0)
     {
-      break;
+      fit.Assign(mesh.Places, execution);
     }
-    energy = after;
+    const double least = sweeper.LeastDeterminant(execution);
+    if (least <= 0.0)
+    {
+      // Where folds stay, the nodes around them may leave the surface uncovered.
+      const bool late = untangling > options.MostUntangling / 3;
+      sweeper.Fitting = late ? LateFitting * options.Fitting : options.Fitting;
+      sweeper.Activate(untangling < WholeSweeps || (!late && untangling % WholeEvery == 0));
+      ++untangling;
+    }
+    else
+    {
+      sweeper.Fitting = options.Fitting;
+      sweeper.Activate(true);
+      const double now =
+        sweeper.Energy(Sharp, execution) + options.Fitting * fit.Energy(mesh.Places);
+      if (now > (1.0 - options.Settled) * energy)
+      {
+        break;
+      }
+      energy = now;
+      ++smoothing;
+    }
+    sweeper.Sweep(execution);
   }
 }
 }

@@ -5,7 +5,7 @@
 #define trivariate_BlockRepair_h
 
 #include "BlockCells.h"
-#include "SlidingNodes.h"
+#include "BoundaryFit.h"
 
 namespace trivariate
 {
@@ -13,7 +13,7 @@ struct RepairOptions
 {
   int MostUntangling = 300; ///< sweeps over all nodes as long as cells are inverted
   int MostSmoothing = 40;   ///< sweeps afterwards
-  double Homing = 0.1;      ///< how much nodes of the surface are held near their homes
+  double Fitting = 1000.0;  ///< the weight of BoundaryFit
   double Settled = 1e-3; ///< smoothing ends when a sweep lowers the energy by less than this share
 };
 
@@ -36,7 +36,7 @@ CellQuality QualityOf(const BlockMesh& mesh, const Execution& execution);
  * does not depend on threads. Each move is a Newton step with a line search. targets: of each
  * block, the wanted lengths of its cells.
  */
-void Repair(BlockMesh& mesh, const SlidingNodes& sliding,
+void Repair(BlockMesh& mesh, SlidingNodes& sliding, BoundaryFit& fit,
   const std::vector<Eigen::Vector3d>& targets, const RepairOptions& options,
   const Execution& execution);
 }

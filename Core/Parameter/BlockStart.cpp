@@ -105,41 +105,24 @@ void Start::PlaceBorders()
 
 void Start::PlacePatches(const std::vector<PatchMap>& maps)
 {
-  struct Standing
+  const std::vector<PatchFace> faces = PatchFaces(this->Domain, this->Mesh);
+  for (std::size_t patch = 0; patch < faces.size(); ++patch)
   {
-    Index Block;
-    int Face;
-  };
-  std::vector<Standing> on(this->Domain.Patches.size());
-  for (std::size_t b = 0; b < this->Domain.Blocks.size(); ++b)
-  {
-    for (int face = 0; face < 6; ++face)
-    {
-      const Index patch =
-        this->Domain.PatchOn(FacePoints(this->Domain.Blocks[b], face / 2, face % 2));
-      if (patch >= 0)
-      {
-        on[patch] = { static_cast<Index>(b), face };
-      }
-    }
-  }
-  for (std::size_t patch = 0; patch < on.size(); ++patch)
-  {
-    const auto& [block, face] = on[patch];
-    const int axis = face / 2;
+    const PatchFace& face = faces[patch];
     const PatchMap& map = maps[patch];
-    const std::array<Index, 4> points = FacePoints(this->Domain.Blocks[block], axis, face % 2);
+    const std::array<Index, 4> points =
+      FacePoints(this->Domain.Blocks[face.Block], face.Axis, face.Side);
     const Vector2d origin = map.CornerOf(points[0]);
     const Vector2d along = map.CornerOf(points[1]) - origin,
                    across = map.CornerOf(points[2]) - origin;
-    const int ns = this->Mesh.Sizes[block][First[axis]], nt = this->Mesh.Sizes[block][Second[axis]];
-    const std::vector<Index> nodes = this->Mesh.FaceNodes(block, axis, face % 2);
-    for (std::size_t i = 0; i < nodes.size(); ++i)
+    const auto [ns, nt] = face.Cells;
+    for (std::size_t i = 0; i < face.Nodes.size(); ++i)
     {
       const int s = static_cast<int>(i) % (ns + 1), t = static_cast<int>(i) / (ns + 1);
-      if (!this->Placed[nodes[i]])
+      if (!this->Placed[face.Nodes[i]])
       {
-        this->Place(nodes[i], map.At(origin + double(s) / ns * along + double(t) / nt * across));
+        this->Place(
+          face.Nodes[i], map.At(origin + double(s) / ns * along + double(t) / nt * across));
       }
     }
   }

@@ -73,6 +73,18 @@ inline CornerTerm TermOf(const std::vector<Eigen::Vector3d>& places, const Block
   return term;
 }
 
+/// Of the trilinear map at a point of a cell, when the node at a corner moves.
+inline CornerTerm TermAt(const std::vector<Eigen::Vector3d>& places, const BlockPoints& cell,
+  const Eigen::Vector3d& at, int corner, const Eigen::Vector3d& lengths)
+{
+  const Eigen::Matrix3d j = JacobianAt(places, cell, at) * lengths.cwiseInverse().asDiagonal();
+  Eigen::Matrix3d cofactors;
+  cofactors << j.col(1).cross(j.col(2)), j.col(2).cross(j.col(0)), j.col(0).cross(j.col(1));
+  const Eigen::Vector3d rate = ShapeGradient(corner, at).cwiseQuotient(lengths);
+  return { j.squaredNorm(), j.col(0).dot(cofactors.col(0)), 2.0 * j * rate, cofactors * rate,
+    rate.squaredNorm() };
+}
+
 /// The energy and its derivatives in trace and determinant.
 struct EnergyDerivatives
 {

@@ -49,61 +49,94 @@ Vector3d NearestOfLine(const std::vector<Vector3d>& line, const Vector3d& p, Vec
 }
 
 //------------------------------------------------------------------------------
-SlidingNodes::SlidingNodes(const BlockDomain& domain, const BlockMesh& mesh)
-  : Domain(domain)
-  , Homes(mesh.Places)
-  , Kinds(mesh.Places.size(), Free)
-  , Support(mesh.Places.size(), -1)
-  , Patches(domain.Patches.size())
+SlidingNodes::SlidingNodes(const DomainSurface& surface, BlockMesh& mesh, double freedom)
+  : On(&surface)
+  , Most(freedom)
 {
-  const auto hold = [this](Index node, Kind kind, Index support)
+  this->FindKinds(mesh);
+  for (std::size_t node = 0; node < mesh.Places.size(); ++node)
   {
-    if (kind > this->Kinds[node])
+    Vector3d& place = mesh.Places[node];
+    if (this->Kinds[node] == OnSurface)
     {
-      this->Kinds[node] = kind;
-      this->Support[node] = support;
+      this->Feet[node] = surface.NearestOnPatch(this->Support[node], place);
     }
-  };
-  for (std::size_t p = 0; p < domain.Patches.size(); ++p)
+    place = this->Allowed(static_cast<Index>(node), place, this->Feet[node]);
+  }
+}
+
+SlidingNodes::SlidingNodes(BlockMesh& mesh, const BlockMesh& coarse, const SlidingNodes& onCoarse)
+  : On(onCoarse.On)
+  , Most(onCoarse.Most)
+{
+  this->FindKinds(mesh);
+  const std::vector<PatchFace> faces = PatchFaces(this->On->Domain, mesh);
+  const std::vector<PatchFace> coarseFaces = PatchFaces(this->On->Domain, coarse);
+  for (std::size_t patch = 0; patch < faces.size(); ++patch)
   {
-    for (const Index t : domain.Patches[p].Triangles)
+    const auto [ns, nt] = faces[patch].Cells;
+    const auto [ms, mt] = coarseFaces[patch].Cells;
+    for (int t = 0; t <= nt; ++t)
     {
-      this->Patches[p].Triangles.push_back(domain.Triangles[t]);
+      for (int s = 0; s <= ns; ++s)
+      {
+        const Index node = faces[patch].NodeAt(s, t);
+        if (this->Kinds[node] == OnSurface)
+        {
+          const Index from =
+            coarseFaces[patch].NodeAt((s * ms + ns / 2) / ns, (t * mt + nt / 2) / nt);
+          const Vector3d& start = coarse.Places[from];
+          this->Feet[node] = onCoarse.Kinds[from] == OnSurface
+                               ? onCoarse.Feet[from]
+                               : this->On->NearestOnPatch(static_cast<Index>(patch), start);
+        }
+      }
     }
-    this->Patches[p].Tree =
-      std::make_unique<TriangleTree>(domain.SurfacePoints, this->Patches[p].Triangles);
-    for (const Index corner : domain.Patches[p].Corners)
+  }
+  for (std::size_t node = 0; node < mesh.Places.size(); ++node)
+  {
+    Vector3d& place = mesh.Places[node];
+    place = this->Allowed(static_cast<Index>(node), place, this->Feet[node]);
+  }
+}
+
+void SlidingNodes::FindKinds(const BlockMesh& mesh)
+{
+  const BlockDomain& domain = this->On->Domain;
+  this->Kinds.assign(mesh.Places.size(), Free);
+  this->Support.assign(mesh.Places.size(), -1);
+  this->Feet.resize(mesh.Places.size());
+  const std::vector<PatchFace> faces = PatchFaces(domain, mesh);
+  for (std::size_t patch = 0; patch < faces.size(); ++patch)
+  {
+    for (const Index node : faces[patch].Nodes)
     {
-      hold(corner, Fixed, -1);
+      this->Kinds[node] = OnSurface;
+      this->Support[node] = static_cast<Index>(patch);
     }
   }
   for (std::size_t b = 0; b < domain.Blocks.size(); ++b)
   {
-    for (int face = 0; face < 6; ++face)
-    {
-      const Index patch = domain.PatchOn(FacePoints(domain.Blocks[b], face / 2, face % 2));
-      if (patch >= 0)
-      {
-        for (const Index node : mesh.FaceNodes(b, face / 2, face % 2))
-        {
-          hold(node, OnPatch, patch);
-        }
-      }
-    }
     for (int edge = 0; edge < 12; ++edge)
     {
-      const std::vector<Index> nodes = mesh.EdgeNodes(b, edge / 4, edge % 2, edge / 2 % 2);
-      const std::vector<Index> border = domain.Border(nodes.front(), nodes.back());
-      if (nodes.size() < 3 || border.empty() || this->Kinds[nodes[1]] == OnBorder)
+      const std::vector<Index> nodes =
+        mesh.EdgeNodes(static_cast<Index>(b), edge / 4, edge % 2, edge / 2 % 2);
+      if (!this->On->IsHeld(nodes.front(), nodes.back()) || this->Kinds[nodes.front()] == Free)
+      {
+        continue;
+      }
+      this->Kinds[nodes.front()] = this->Kinds[nodes.back()] = Fixed;
+      if (nodes.size() < 3 || this->Kinds[nodes[1]] == OnBorder)
       {
         continue;
       }
       for (std::size_t i = 1; i + 1 < nodes.size(); ++i)
       {
-        hold(nodes[i], OnBorder, static_cast<Index>(this->Borders.size()));
+        this->Kinds[nodes[i]] = OnBorder;
+        this->Support[nodes[i]] = static_cast<Index>(this->Borders.size());
       }
       std::vector<Vector3d>& line = this->Borders.emplace_back();
-      for (const Index point : border)
+      for (const Index point : domain.Border(nodes.front(), nodes.back()))
       {
         line.push_back(domain.SurfacePoints[point]);
       }
@@ -112,51 +145,41 @@ SlidingNodes::SlidingNodes(const BlockDomain& domain, const BlockMesh& mesh)
 }
 
 //------------------------------------------------------------------------------
-Vector3d SlidingNodes::Allowed(Index node, const Vector3d& place) const
+Vector3d SlidingNodes::Allowed(Index node, const Vector3d& place, SurfaceFoot& foot) const
 {
   Vector3d direction = Vector3d::UnitX();
   switch (this->Kinds[node])
   {
-    case OnPatch:
-      return this->Patches[this->Support[node]].Tree->Nearest(place).Place;
+    case OnSurface:
+    {
+      foot = this->On->Walk.Nearest(this->Feet[node].Triangle, place);
+      const Vector3d off = place - foot.Place;
+      return foot.Place + off * std::min(1.0, this->Most / std::max(off.norm(), 1e-300));
+    }
     case OnBorder:
       return NearestOfLine(this->Borders[this->Support[node]], place, direction);
     case Fixed:
-      return this->Domain.Points[node];
+      return this->On->Domain.Points[node];
     default:
       return place;
   }
 }
 
-Vector3d SlidingNodes::Allowed(Index node, const Vector3d& place, Matrix3d& basis) const
+Matrix3d SlidingNodes::BasisAt(Index node, const Vector3d& place) const
 {
-  basis.setIdentity();
-  if (this->Kinds[node] == OnPatch)
+  Matrix3d basis = Matrix3d::Identity();
+  if (this->Kinds[node] == OnSurface)
   {
-    const PatchSurface& patch = this->Patches[this->Support[node]];
-    const TriangleTree::Foot foot = patch.Tree->Nearest(place);
-    const Triangle& c = patch.Triangles[foot.Triangle];
-    const std::vector<Vector3d>& points = this->Domain.SurfacePoints;
-    basis.col(2) = (points[c[1]] - points[c[0]]).cross(points[c[2]] - points[c[0]]).normalized();
+    basis.col(2) = this->On->Walk.Normal(this->Feet[node].Triangle);
     Complete(basis, 2);
-    return foot.Place;
   }
-  if (this->Kinds[node] == OnBorder)
+  else if (this->Kinds[node] == OnBorder)
   {
     Vector3d direction = Vector3d::UnitX();
-    const Vector3d nearest = NearestOfLine(this->Borders[this->Support[node]], place, direction);
+    NearestOfLine(this->Borders[this->Support[node]], place, direction);
     basis.col(0) = direction;
     Complete(basis, 0);
-    return nearest;
   }
-  return this->Allowed(node, place);
-}
-
-void SlidingNodes::SendHome(std::vector<Vector3d>& places) const
-{
-  for (std::size_t node = 0; node < places.size(); ++node)
-  {
-    places[node] = this->Kinds[node] == Free ? places[node] : this->Homes[node];
-  }
+  return basis;
 }
 }

@@ -1,59 +1,64 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-/// How far the nodes of a block mesh are free: corners stay, others slide on borders and patches.
+/// How far the nodes of a block mesh are free on the surface of its domain.
 #ifndef trivariate_SlidingNodes_h
 #define trivariate_SlidingNodes_h
 
-#include "BlockDomain.h"
-#include "Domain/TriangleTree.h"
-#include "Execution.h"
-
-#include <memory>
+#include "DomainSurface.h"
 
 namespace trivariate
 {
+/**
+ * Nodes of patches slide over the whole piece of surface to which the patch belongs, and so do
+ * those of borders and corners, except where borders hold them (DomainSurface): there they slide
+ * along the border, and corners at its ends stay. Nodes that slide over a piece may leave it
+ * to both sides by as much as they are free.
+ */
 class SlidingNodes
 {
 public:
-  /// `start`: the mesh as StartOfBlockMesh makes it. The domain must outlive this. O(n log n).
-  SlidingNodes(const BlockDomain& domain, const BlockMesh& start);
-
   enum Kind : char
   {
     Free,
-    OnPatch,
+    OnSurface,
     OnBorder,
     Fixed
   };
 
+  /**
+   * Puts the nodes of a mesh that belong on the surface there: on the nearest point of their patch.
+   * freedom: how far they may leave the surface, in space. The surface must outlive this.
+   * O(n log n).
+   */
+  SlidingNodes(const DomainSurface& surface, BlockMesh& mesh, double freedom);
+
+  /// The same where `mesh` is `coarse` at another resolution: the nearest point within reach from
+  /// where the coarse nodes are.
+  SlidingNodes(BlockMesh& mesh, const BlockMesh& coarse, const SlidingNodes& onCoarse);
+
   Kind KindOf(Index node) const { return this->Kinds[node]; }
 
-  /// Where the node started; one on the surface should not go far from there, so that all parts of
-  /// the surface keep their nodes.
-  const Eigen::Vector3d& Home(Index node) const { return this->Homes[node]; }
+  /// Where a node gets when it is moved to `place`, and `foot`, where it then is on the surface.
+  Eigen::Vector3d Allowed(Index node, const Eigen::Vector3d& place, SurfaceFoot& foot) const;
 
-  /// The nearest place that the node may take.
-  Eigen::Vector3d Allowed(Index node, const Eigen::Vector3d& place) const;
+  const SurfaceFoot& FootOf(Index node) const { return this->Feet[node]; }
+  void Step(Index node, const SurfaceFoot& foot) { this->Feet[node] = foot; }
 
-  /// The same, and an orthonormal basis of the directions in which the node may go from there, in
-  /// the first columns: none, one, two or all three.
-  Eigen::Vector3d Allowed(Index node, const Eigen::Vector3d& place, Eigen::Matrix3d& basis) const;
+  /// An orthonormal basis of which the first column is along the border of the node, or the last
+  /// one normal to the surface.
+  Eigen::Matrix3d BasisAt(Index node, const Eigen::Vector3d& place) const;
 
-  /// Puts all nodes of the surface where they started.
-  void SendHome(std::vector<Eigen::Vector3d>& places) const;
+  double Freedom() const { return this->Most; }
+  const DomainSurface& Surface() const { return *this->On; }
 
 private:
-  struct PatchSurface
-  {
-    std::vector<Triangle> Triangles;
-    std::unique_ptr<TriangleTree> Tree;
-  };
+  void FindKinds(const BlockMesh& mesh);
 
-  const BlockDomain& Domain;
-  std::vector<Eigen::Vector3d> Homes;
-  std::vector<Kind> Kinds;    // of each node
-  std::vector<Index> Support; // of each node: its patch or border
-  std::vector<PatchSurface> Patches;
+  const DomainSurface* On;
+  double Most;
+  std::vector<Kind> Kinds;       // of each node
+  std::vector<Index> Support;    // of each node: a patch, or its border
+  std::vector<SurfaceFoot> Feet; // of nodes on the surface
   std::vector<std::vector<Eigen::Vector3d>> Borders;
 };
 }

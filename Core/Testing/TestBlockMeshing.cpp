@@ -48,20 +48,48 @@ double VolumeOf(const BlockMesh& mesh)
   return volume;
 }
 
-// Nothing inverted, nodes of patches on the surface, all of the volume.
-CellQuality ExpectSound(const BlockDomain& domain, const BlockMesh& mesh, double volume)
+// Nothing inverted, nodes of patches as near to the surface as they must be, all of the volume.
+CellQuality ExpectSound(
+  const BlockDomain& domain, const BlockMesh& mesh, double volume, double freedom, double share)
 {
   const CellQuality quality = QualityOf(mesh, Execution());
   EXPECT_EQ(quality.Inverted, 0);
   EXPECT_GT(quality.LeastJacobian, 0.0);
-  EXPECT_NEAR(VolumeOf(mesh), volume, 0.015 * volume); // chords of a curved surface
-  const SlidingNodes sliding(domain, mesh);
-  for (std::size_t node = 0; node < mesh.Places.size(); ++node)
+  EXPECT_NEAR(VolumeOf(mesh), volume, share * volume);
+  const TriangleTree surface(domain.SurfacePoints, domain.Triangles);
+  for (const PatchFace& face : PatchFaces(domain, mesh))
   {
-    const Vector3d& place = mesh.Places[node];
-    EXPECT_LT((sliding.Allowed(node, place) - place).norm(), 1e-9);
+    for (const Index node : face.Nodes)
+    {
+      EXPECT_LT(surface.Nearest(mesh.Places[node]).Distance, freedom + 1e-9);
+    }
   }
   return quality;
+}
+
+// The farthest point of the surface from the faces of cells on it.
+double FarthestOf(const BlockDomain& domain, const BlockMesh& mesh)
+{
+  std::vector<Triangle> triangles;
+  for (const PatchFace& face : PatchFaces(domain, mesh))
+  {
+    for (int t = 0; t < face.Cells[1]; ++t)
+    {
+      for (int s = 0; s < face.Cells[0]; ++s)
+      {
+        triangles.push_back({ face.NodeAt(s, t), face.NodeAt(s + 1, t), face.NodeAt(s, t + 1) });
+        triangles.push_back(
+          { face.NodeAt(s + 1, t), face.NodeAt(s + 1, t + 1), face.NodeAt(s, t + 1) });
+      }
+    }
+  }
+  const TriangleTree faces(mesh.Places, triangles);
+  double farthest = 0.0;
+  for (const Vector3d& p : domain.SurfacePoints)
+  {
+    farthest = std::max(farthest, faces.Nearest(p).Distance);
+  }
+  return farthest;
 }
 }
 
@@ -141,7 +169,8 @@ TEST(BlockMeshing, FillsManyShapesWithoutFolds)
     {
       const BlockDomain domain = DomainOfSegment(blocks, shape);
       const BlockMesh mesh = MakeBlockMesh(domain, options, Execution());
-      EXPECT_GT(ExpectSound(domain, mesh, volume).LeastJacobian, 0.3);
+      EXPECT_GT(ExpectSound(domain, mesh, volume, 0.0, 1e-6).LeastJacobian, 0.3);
+      EXPECT_LT(FarthestOf(domain, mesh), 1e-6); // sharp edges hold their nodes
     }
   }
 }
@@ -154,12 +183,14 @@ TEST(BlockMeshing, FillsABallOnAnyThreads)
   const BlockDomain domain = DomainOfSegment(LayeredBlocks(ball, 2.5, Execution()), ball);
   BlockMeshOptions options;
   options.CellLength = 1.0;
+  options.Freedom = 0.25;
   BlockMeshReport report;
   const BlockMesh mesh = MakeBlockMesh(domain, options, Execution(), &report);
-  const CellQuality quality = ExpectSound(domain, mesh, VolumeOf(surface));
+  const CellQuality quality = ExpectSound(domain, mesh, VolumeOf(surface), 0.25, 0.002);
   EXPECT_EQ(report.End.Cells, quality.Cells);
   EXPECT_GT(quality.LeastJacobian, 0.4);
   EXPECT_GT(quality.MeanJacobian, 0.93);
+  EXPECT_LT(FarthestOf(domain, mesh), 0.25);
   EXPECT_GT(quality.LowRatio, 0.3);
   EXPECT_LT(quality.HighRatio, 3.0);
   EXPECT_EQ(MakeBlockMesh(domain, options, ThreadedExecution(3)).Places, mesh.Places);
@@ -177,5 +208,70 @@ TEST(BlockMeshing, FillsAShell)
   BlockMeshOptions options;
   options.CellLength = 1.0;
   const BlockMesh mesh = MakeBlockMesh(domain, options, Execution());
-  EXPECT_GT(ExpectSound(domain, mesh, VolumeOf(outside) - VolumeOf(inside)).MeanJacobian, 0.9);
+  const double volume = VolumeOf(outside) - VolumeOf(inside);
+  EXPECT_GT(ExpectSound(domain, mesh, volume, 0.0, 0.015).MeanJacobian, 0.9);
+}
+
+TEST(BlockMeshing, CoversABump)
+{
+  // A ball with a bump as high as three cells and as thick as four on one side.
+  const SurfaceMesh surface = Moved(Icosphere(5),
+    [](const Vector3d& p)
+    {
+      const double bump = std::exp(-40.0 * (p - Vector3d(0.6, 0.64, 0.48)).squaredNorm());
+      return Vector3d((10.0 + 5.0 * bump) * p);
+    });
+  const SegmentDomain ball = FindDomain(surface, DomainOptions(), Execution());
+  const BlockDomain domain = DomainOfSegment(LayeredBlocks(ball, 2.5, Execution()), ball);
+  BlockMeshOptions options;
+  options.CellLength = 1.5;
+  options.Freedom = 0.5;
+  const BlockMesh mesh = MakeBlockMesh(domain, options, Execution());
+  ExpectSound(domain, mesh, VolumeOf(surface), 0.5, 0.005);
+  EXPECT_LT(FarthestOf(domain, mesh), 0.75); // half a cell
+}
+
+//------------------------------------------------------------------------------
+TEST(SurfaceWalk, StaysOnItsSideOfAThinSheet)
+{
+  // A sheet of 20 x 20 x 1: from above, the nearest point within reach of one that lies below the
+  // middle of the sheet is above.
+  const SurfaceMesh sheet = Moved(SurfaceOf(Polycube::FromGrid({ 1, 1, 1 }), 20),
+    [](const Vector3d& p) { return Vector3d(20.0 * p[0], 20.0 * p[1], p[2]); });
+  const SurfaceWalk walk(sheet.Points, sheet.Triangles);
+  const TriangleTree tree(sheet.Points, sheet.Triangles);
+  const Index above = tree.Nearest({ 10.3, 10.2, 1.2 }).Triangle;
+  const Vector3d target(12.4, 8.7, 0.2);
+  EXPECT_NEAR(tree.Nearest(target).Place[2], 0.0, 1e-12);
+  EXPECT_LT((walk.Nearest(above, target).Place - Vector3d(12.4, 8.7, 1.0)).norm(), 1e-12);
+  EXPECT_EQ(walk.PieceOf(above), walk.PieceOf(0));
+}
+
+TEST(SurfaceWalk, EndsWhereThreeSheetsMeet)
+{
+  // Three half planes around the line x = y = 0.
+  const std::vector<Vector3d> points{ { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, { 0, 1, 0 },
+    { -1, 0, 0 } };
+  const std::vector<Triangle> triangles{ { 0, 2, 1 }, { 0, 3, 1 }, { 0, 4, 1 } };
+  const SurfaceWalk walk(points, triangles);
+  EXPECT_NE(walk.PieceOf(0), walk.PieceOf(1));
+  EXPECT_NE(walk.PieceOf(0), walk.PieceOf(2));
+  EXPECT_LT((walk.Nearest(0, { -0.5, 0.1, 0.2 }).Place - Vector3d(0, 0, 0.2)).norm(), 1e-12);
+}
+
+TEST(CornerEnergy, KnowsTheInsideOfACell)
+{
+  const std::vector<Vector3d> places{ { 0, 0, 0 }, { 2, .1, 0 }, { 2.2, 3, .3 }, { .1, 3, -.2 },
+    { 0, .4, 4 }, { 2.3, 0, 4.1 }, { 2, 3, 4 }, { 0, 2.7, 4.4 } };
+  const BlockPoints cell{ 0, 1, 2, 3, 4, 5, 6, 7 };
+  const Vector3d lengths(1.5, 3.5, 4.0), d(0.3, -0.2, 0.5), at(0.2, 0.7, 0.4);
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const CornerTerm term = TermAt(places, cell, at, corner, lengths);
+    std::vector<Vector3d> moved = places;
+    moved[corner] += d;
+    const Eigen::Matrix3d j = JacobianAt(moved, cell, at) * lengths.cwiseInverse().asDiagonal();
+    EXPECT_NEAR(term.TraceAt(d), j.squaredNorm(), 1e-12);
+    EXPECT_NEAR(term.DeterminantAt(d), j.determinant(), 1e-12);
+  }
 }
