@@ -12,9 +12,9 @@ class vtkUnstructuredGrid;
 
 namespace trivariate
 {
-/// How far nodes of a block mesh may leave the surface, in voxels: by about as much as the surface
-/// may be off, and as chords of cells must to hold its volume.
-constexpr double FreedomOfNodes = 0.5;
+/// How far nodes of a block mesh may leave the surface, in voxels: as chords of cells must to hold
+/// its volume, and less than the surface itself may be off.
+constexpr double FreedomOfNodes = 0.4;
 
 struct DomainInput
 {

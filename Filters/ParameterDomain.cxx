@@ -4,6 +4,7 @@
 
 #include "LatticeSurface.h"
 #include "Parameter/BlockLocation.h"
+#include "Parameter/ThinParts.h"
 
 #include <algorithm>
 #include <set>
@@ -18,6 +19,8 @@ namespace
 {
 // Voxels farther from the block mesh than so many of their sides have no parameter.
 constexpr double FarthestFromMesh = 1.5;
+
+constexpr double ThinPart = 0.05; // of the work on a segment: to look for thin parts
 
 BlockComplex ComplexOf(const DomainInput& input)
 {
@@ -49,6 +52,14 @@ ParameterVoxels VoxelsOf(
     } };
 }
 
+std::vector<std::uint8_t> MaskOf(const ImageSamples& samples, int segment)
+{
+  std::vector<std::uint8_t> mask(samples.Count());
+  std::transform(samples.Values.begin(), samples.Values.begin() + samples.Count(), mask.begin(),
+    [segment](double label) { return static_cast<std::uint8_t>(label == segment ? 1 : 0); });
+  return mask;
+}
+
 void SolveSegments(const ImageSamples& samples, vtkPolyData* patches, const GridSpace& space,
   const ParameterOptions& options, ParameterDomain& domain, const Execution& execution)
 {
@@ -61,16 +72,18 @@ void SolveSegments(const ImageSamples& samples, vtkPolyData* patches, const Grid
     const double from = share * static_cast<double>(done++);
     try
     {
+      const std::vector<std::uint8_t> mask = MaskOf(samples, segment);
+      domain.ThinShares[segment] =
+        ThinShare(mask, { samples.Points(0), samples.Points(1), samples.Points(2) },
+          execution.Part(from, from + ThinPart * share));
       const ParameterSurface surface = LatticeSurfaceOf(patches, domain.Input, segment, space);
       if (surface.Triangles.empty())
       {
         continue;
       }
-      std::vector<std::uint8_t> mask(samples.Count());
-      std::transform(samples.Values.begin(), samples.Values.begin() + samples.Count(), mask.begin(),
-        [segment](double label) { return static_cast<std::uint8_t>(label == segment ? 1 : 0); });
-      domain.Solved.emplace(segment, SolveVoxelParameter(VoxelsOf(samples, space, mask), surface,
-                                       options, execution.Part(from, from + share)));
+      domain.Solved.emplace(
+        segment, SolveVoxelParameter(VoxelsOf(samples, space, mask), surface, options,
+                   execution.Part(from + ThinPart * share, from + share)));
     }
     catch (const std::invalid_argument& error)
     {
@@ -129,7 +142,7 @@ ParameterDomain ParameterizeDomain(const ImageSamples& samples, vtkPolyData* pat
   vtkUnstructuredGrid* polycube, const ParameterSettings& settings, const Execution& execution)
 {
   const GridSpace space(samples.IndexToPhysical, samples.Extent);
-  ParameterDomain domain{ ReadDomain(patches, polycube), {}, {}, {}, {}, {}, {}, {} };
+  ParameterDomain domain{ ReadDomain(patches, polycube), {}, {}, {}, {}, {}, {}, {}, {} };
   domain.Complex = ComplexOf(domain.Input);
   SolveSegments(samples, patches, space, settings.Options, domain, execution.Part(0.0, 0.3));
   BlockMeshOptions options;

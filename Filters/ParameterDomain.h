@@ -27,6 +27,7 @@ struct ParameterDomain
   BlockMesh Mesh;       ///< in space
   BlockMeshReport Report;
   std::map<int, VoxelParameter> Solved; ///< of the segments whose cubes lie in a lattice
+  std::map<int, double> ThinShares;     ///< of each segment, see ThinParts.h
 
   /// Of each voxel of the image: the parameter in the one space of all blocks, the group of its
   /// block, or -1, and 1 where that is known, else 0.

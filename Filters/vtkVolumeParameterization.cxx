@@ -31,6 +31,7 @@ vtkCxxSetObjectMacro(vtkVolumeParameterization, Controller, vtkMultiProcessContr
 
 namespace
 {
+constexpr double MostThin = 0.02;       // of a segment, in thin parts without a warning
 constexpr double BytesPerVoxel = 240.0; // image and box around a segment together
 }
 
@@ -225,6 +226,16 @@ void vtkVolumeParameterization::Parameterize(const ImageSamples& samples, vtkPol
     vtkWarningMacro(<< domain.Report.End.Inverted << " of " << domain.Report.End.Cells
                     << " cells of the block mesh are inverted; more cubes, other corners or finer "
                        "voxels may avoid that.");
+  }
+  for (const auto& [segment, share] : domain.ThinShares)
+  {
+    if (share > MostThin)
+    {
+      vtkWarningMacro(
+        << "Segment " << segment << " has " << 100.0 * share
+        << " percent of its voxels in parts thinner than four voxels, where blocks may "
+           "be flat or leave parts out; resample the image to finer voxels.");
+    }
   }
   image->SetExtent(const_cast<int*>(samples.Extent.data()));
   WriteParameters(domain, image);

@@ -66,7 +66,7 @@ BoundaryFit::BoundaryFit(const DomainSurface& surface, const BlockMesh& mesh)
     const Triangle& c = domain.Triangles[t];
     const Vector3d &p = domain.SurfacePoints[c[0]], &q = domain.SurfacePoints[c[1]],
                    &r = domain.SurfacePoints[c[2]];
-    this->Samples.push_back({ (p + q + r) / 3.0, 0.0, -1, {}, {} });
+    this->Samples.push_back({ (p + q + r) / 3.0, 0.0, -1 });
   }
   std::vector<TriangleTree> trees;
   std::vector<std::vector<Triangle>> halves(this->Faces.size());

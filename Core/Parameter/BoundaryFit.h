@@ -55,8 +55,8 @@ private:
     Eigen::Vector3d Place;
     double Area; // as far as it counts, by h^4
     Index Quad;
-    Eigen::Vector4d Weights;
-    Eigen::Vector3d Direction;
+    Eigen::Vector4d Weights = Eigen::Vector4d::Zero();
+    Eigen::Vector3d Direction = Eigen::Vector3d::Zero();
   };
 
   void FindQuads(const BlockMesh& mesh);
