@@ -85,7 +85,7 @@ TEST(HexRemesh, FillsABall)
   EXPECT_GT(mesh.Filter->GetLeastScaledJacobian(), 0.3);
   EXPECT_GT(mesh.Filter->GetMeanScaledJacobian(), 0.9);
   EXPECT_NEAR(LeastJacobian(hexes), mesh.Filter->GetLeastScaledJacobian(), 1e-6);
-  EXPECT_NEAR(VolumeOfCells(hexes, 1), VolumeOf(surface, 1), 0.02 * VolumeOf(surface, 1)); // chords
+  EXPECT_NEAR(VolumeOfCells(hexes, 1), VolumeOf(surface, 1), 0.003 * VolumeOf(surface, 1));
 
   // One number, one place, and the values of the image there.
   std::map<vtkIdType, Place> placeOf;
@@ -115,21 +115,18 @@ TEST(HexRemesh, FillsABall)
   EXPECT_EQ(static_cast<vtkIdType>(placeOf.size()), hexes->GetNumberOfPoints());
 }
 
-// What cells lack of the volume is what lies outside of their chords: a quarter for half the edge.
-TEST(HexRemesh, LacksNoVolumeButOutsideOfChords)
+// Nodes leave the surface so that straight cells hold what lies outside of their chords.
+TEST(HexRemesh, HoldsTheVolume)
 {
   const vtkNew<vtkPolyData> surface = Ball();
   const double volume = VolumeOf(surface, 1);
   Remeshed mesh(surface);
-  const auto missing = [&](double edge)
+  for (const double edge : { 2.0, 1.0, 0.5 })
   {
     mesh.Filter->SetEdgeLength(edge);
     mesh.Filter->Update();
-    return 1.0 - VolumeOfCells(mesh.Filter->GetHexahedra(), 1) / volume;
-  };
-  const double coarse = missing(1.0), fine = missing(0.5);
-  EXPECT_LT(std::abs(fine), 0.005) << coarse;
-  EXPECT_LT(std::abs(fine), 0.35 * std::abs(coarse)) << coarse;
+    EXPECT_NEAR(VolumeOfCells(mesh.Filter->GetHexahedra(), 1), volume, 0.005 * volume) << edge;
+  }
 }
 
 TEST(HexRemesh, SharesTheNodesBetweenSegments)
@@ -147,7 +144,7 @@ TEST(HexRemesh, SharesTheNodesBetweenSegments)
   for (const int segment : { 1, 2 })
   {
     const double volume = VolumeOf(surface, segment);
-    EXPECT_NEAR(VolumeOfCells(hexes, segment), volume, 0.03 * volume); // chords
+    EXPECT_NEAR(VolumeOfCells(hexes, segment), volume, 0.02 * volume);
   }
   // Each inner face has two cells: the boundary of all is only that of the outer surface.
   std::set<vtkIdType> inner, outer;
@@ -188,7 +185,7 @@ TEST(HexRemesh, ResamplesGivenMeshes)
   vtkNew<vtkCellLocator> locator;
   locator->SetDataSet(fine.Domain->GetPatches());
   locator->BuildLocator();
-  // The ends of the first layer's grid on its patch are on the surface.
+  // The ends of the first layer's grid on its patch are on the surface, to 0.4 voxels.
   for (unsigned int b = 1; b < 7; ++b)
   {
     vtkStructuredGrid* grid = fine.Grid(b);
@@ -200,9 +197,9 @@ TEST(HexRemesh, ResamplesGivenMeshes)
       int sub;
       grid->GetPoint(p, x);
       locator->FindClosestPoint(x, nearest, cell, sub, square);
-      near += square < 1e-12;
+      near += square < 0.16 + 1e-9;
     }
-    EXPECT_EQ(near, 49);
+    EXPECT_GE(near, 49);
   }
 }
 
