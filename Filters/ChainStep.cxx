@@ -5,7 +5,11 @@
 #include "Execution.h"
 
 #include "vtkCommand.h"
+#include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
 #include "vtkExecutive.h"
+#include "vtkFieldData.h"
+#include "vtkStringArray.h"
 
 #include <chrono>
 #include <stdexcept>
@@ -91,5 +95,21 @@ void ChainStep::Run()
     throw std::runtime_error(this->ErrorTexts.front());
   }
   this->Outer.Filter->UpdateProgress(this->To);
+}
+
+//------------------------------------------------------------------------------
+void WriteSeconds(const Chain& chain, vtkDataObject* data)
+{
+  vtkNew<vtkStringArray> names;
+  names->SetName("Step");
+  vtkNew<vtkDoubleArray> seconds;
+  seconds->SetName("StepSeconds");
+  for (const auto& [name, time] : chain.Seconds)
+  {
+    names->InsertNextValue(name);
+    seconds->InsertNextValue(time);
+  }
+  data->GetFieldData()->AddArray(names);
+  data->GetFieldData()->AddArray(seconds);
 }
 }

@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+class vtkDataObject;
+
 namespace trivariate
 {
 /// The outer filter, and where its time goes.
@@ -22,6 +24,9 @@ struct Chain
   vtkAlgorithm* Filter;
   std::map<std::string, double> Seconds; ///< by the name of the step
 };
+
+/// Adds where the time went to the field data: Step (string) and StepSeconds (double).
+void WriteSeconds(const Chain& chain, vtkDataObject* data);
 
 class ChainStep
 {

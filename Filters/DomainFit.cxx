@@ -196,6 +196,12 @@ FittedPart FitOverDomain(const FilledDomains& domains, vtkImageData* image, cons
 }
 
 //------------------------------------------------------------------------------
+double LastRms(vtkTable* rounds)
+{
+  return rounds->GetValueByName(rounds->GetNumberOfRows() - 1, "RMS").ToDouble();
+}
+
+//------------------------------------------------------------------------------
 PartErrors MeasurePart(vtkImageData* image, const std::string& array, const TSplineModel& model,
   const std::vector<vtkIdType>& voxels, Chain& chain, double from, double to)
 {

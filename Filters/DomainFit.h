@@ -46,7 +46,11 @@ struct FittedPart
 {
   TSplineModel Model;
   vtkSmartPointer<vtkTable> Rounds;
+  double Squares = 0.0; ///< sum of the squared errors of the round trip
 };
+
+/// The error that a fit ended with, in percent of the range of what it fitted.
+double LastRms(vtkTable* rounds);
 
 /**
  * Runs a fit that has its inputs, for the voxels that `mask` names and as the options want it. Its

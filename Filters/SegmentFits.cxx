@@ -23,6 +23,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -172,7 +173,12 @@ FittedPart FitOverBox(const Cut& cut, const Part& part, const SegmentFitOptions&
 {
   vtkNew<vtkTSplineFit> fit;
   fit->SetInputData(cut.Image);
-  return RunFit(fit, MaskName, part.Label, "FitOverBox", options, chain, from, to);
+  FittedPart fitted = RunFit(fit, MaskName, part.Label, "FitOverBox", options, chain, from, to);
+  // Its geometry is affine: the error of the round trip is that of the fit.
+  const double range = part.High - part.Low;
+  const double rms = range > 0.0 ? LastRms(fitted.Rounds) / 100.0 * range : 0.0;
+  fitted.Squares = rms * rms * static_cast<double>(cut.Voxels.size());
+  return fitted;
 }
 
 //------------------------------------------------------------------------------
@@ -229,10 +235,7 @@ FittedPart FitPart(vtkImageData* image, const Part& part, std::int32_t number,
       why = "the spline over its cubes misses " + std::to_string(errors.Missed.size()) + " of " +
             std::to_string(cut.Voxels.size()) + " voxels.";
     }
-    else if (options.Compared &&
-             errors.Squares / (all - missed) >=
-               MeasurePart(image, options.Array, box.Model, cut.Voxels, chain, to, to).Squares /
-                 all)
+    else if (options.Compared && errors.Squares / (all - missed) >= box.Squares / all)
     {
       why = "with as many control points that is more accurate than its cubes.";
     }
@@ -242,6 +245,7 @@ FittedPart FitPart(vtkImageData* image, const Part& part, std::int32_t number,
       {
         partOf[voxel] = 0;
       }
+      cubes.Squares = errors.Squares;
       return cubes;
     }
   }
@@ -282,7 +286,7 @@ void AddRounds(vtkTable* rounds, std::int32_t segment, vtkTable* all)
 }
 
 //------------------------------------------------------------------------------
-TSplineModel FitSegments(vtkImageData* image, const SegmentFitOptions& options, vtkTable* rounds,
+SegmentFits FitSegments(vtkImageData* image, const SegmentFitOptions& options, vtkTable* rounds,
   std::vector<std::string>& why, Chain& chain, double from, double to)
 {
   vtkDataArray* values = image->GetPointData()->GetArray(options.Array.c_str());
@@ -351,16 +355,23 @@ TSplineModel FitSegments(vtkImageData* image, const SegmentFitOptions& options, 
     left -= static_cast<double>(fitted[p].Model.Spline.Size());
     open -= shares[p];
   }
-  TSplineModel whole;
+  SegmentFits whole{ {}, 0.0 };
+  double squares = 0.0;
   for (std::size_t p = 0; p < parts.size(); ++p)
   {
-    whole = JoinParts(whole, fitted[p].Model);
+    whole.Model = JoinParts(whole.Model, fitted[p].Model);
+    squares += fitted[p].Squares;
     AddRounds(fitted[p].Rounds, parts[p].Label, rounds);
   }
   vtkDataArray* labels = image->GetPointData()->GetArray("Segment");
   for (vtkIdType voxel = 0; voxel < image->GetNumberOfPoints(); ++voxel)
   {
     labels->SetTuple1(voxel, parts[partOf[voxel]].Label);
+  }
+  if (high > low)
+  {
+    const auto voxels = static_cast<double>(image->GetNumberOfPoints());
+    whole.RmsPercent = 100.0 * std::sqrt(squares / voxels) / (high - low);
   }
   return whole;
 }

@@ -29,6 +29,12 @@ struct SegmentFitOptions
   bool Compared = true; ///< whether a fit over a domain must be better than that over the box
 };
 
+struct SegmentFits
+{
+  TSplineModel Model;
+  double RmsPercent; ///< of the round trip, of the first array's range over the whole image
+};
+
 /**
  * Fits the voxels of each label in the point array Segment over the label's bounding box, the
  * others masked; and those with a domain also over its cubes with as many control points. The
@@ -41,7 +47,7 @@ struct SegmentFitOptions
  * with a column Segment. Progress, abort and messages are those of `chain`, from `from` to `to`.
  * Throws as ChainStep does.
  */
-TSplineModel FitSegments(vtkImageData* image, const SegmentFitOptions& options, vtkTable* rounds,
+SegmentFits FitSegments(vtkImageData* image, const SegmentFitOptions& options, vtkTable* rounds,
   std::vector<std::string>& why, Chain& chain, double from, double to);
 }
 

@@ -21,8 +21,6 @@
 
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
-#include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -32,7 +30,6 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-#include "vtkStringArray.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -59,7 +56,8 @@ enum Outputs
 };
 
 // Where the steps end, as shares of the progress.
-constexpr double Segmented = 0.2, Whole = 0.23, Bounded = 0.27, LaidOut = 0.35, Filled = 0.5;
+constexpr double Segmented = 0.2, Whole = 0.23, Bounded = 0.27, LaidOut = 0.35, Filled = 0.5,
+                 AllFitted = 0.9;
 
 //------------------------------------------------------------------------------
 // The image with these arrays only, and labels (or null: none) under the name Segment.
@@ -81,22 +79,6 @@ vtkSmartPointer<vtkImageData> MakeImage(
     image->GetPointData()->AddArray(segments);
   }
   return image;
-}
-
-//------------------------------------------------------------------------------
-void WriteSeconds(const Chain& chain, vtkFieldData* field)
-{
-  vtkNew<vtkStringArray> names;
-  names->SetName("Step");
-  vtkNew<vtkDoubleArray> seconds;
-  seconds->SetName("StepSeconds");
-  for (const auto& [name, time] : chain.Seconds)
-  {
-    names->InsertNextValue(name);
-    seconds->InsertNextValue(time);
-  }
-  field->AddArray(names);
-  field->AddArray(seconds);
 }
 }
 
@@ -232,10 +214,11 @@ std::vector<GivenDomain> vtkTSplineReconstruction::GivenDomains(vtkUnstructuredG
 }
 
 //------------------------------------------------------------------------------
-void vtkTSplineReconstruction::FitBox(
-  vtkImageData* image, Chain& chain, vtkInformationVector* outputVector)
+// One spline over the whole image.
+vtkSmartPointer<vtkTSplineFit> vtkTSplineReconstruction::FitBox(
+  vtkImageData* image, Chain& chain, double from, double to)
 {
-  vtkNew<vtkTSplineFit> fit;
+  auto fit = vtkSmartPointer<vtkTSplineFit>::New();
   fit->SetController(nullptr);
   fit->SetInputData(image);
   fit->SetInputArrayToProcess(
@@ -246,9 +229,27 @@ void vtkTSplineReconstruction::FitBox(
   }
   fit->SetMaximumNumberOfControlPoints(this->MaximumNumberOfControlPoints);
   fit->SetRMSTolerance(this->RMSTolerance);
-  ChainStep(fit, chain, 0.0, 1.0, "FitOverBox").Run();
-  vtkUnstructuredGrid::GetData(outputVector, TSPLINE)->ShallowCopy(fit->GetOutput());
-  vtkTable::GetData(outputVector, ROUNDS)->ShallowCopy(fit->GetOutputDataObject(1));
+  ChainStep(fit, chain, from, to, "FitOverBox").Run();
+  return fit;
+}
+
+//------------------------------------------------------------------------------
+// Whether one spline over the whole image does better than one for each segment.
+bool vtkTSplineReconstruction::IsBoxBetter(vtkTSplineFit* box, const SegmentFits& segments)
+{
+  const double rms = LastRms(vtkTable::SafeDownCast(box->GetOutputDataObject(1)));
+  const bool meetTolerance = std::max(rms, segments.RmsPercent) <= this->RMSTolerance;
+  const bool better = meetTolerance
+                        ? box->GetOutput()->GetNumberOfPoints() <= segments.Model.Spline.Size()
+                        : rms <= segments.RmsPercent;
+  if (better)
+  {
+    vtkWarningMacro("One spline stands for all segments: its error is "
+                    << rms << " % at " << box->GetOutput()->GetNumberOfPoints()
+                    << " control points, that of one for each " << segments.RmsPercent << " % at "
+                    << segments.Model.Spline.Size() << ".");
+  }
+  return better;
 }
 
 //------------------------------------------------------------------------------
@@ -375,10 +376,23 @@ void vtkTSplineReconstruction::FitParts(vtkImageData* image, bool labelled,
   options.Domains = &domains;
   options.Compared = given.empty();
   std::vector<std::string> why;
-  const TSplineModel model = FitSegments(segments, options, vtkTable::GetData(outputVector, ROUNDS),
-    why, chain, this->GetProgress(), 1.0);
+  vtkTable* rounds = vtkTable::GetData(outputVector, ROUNDS);
+  vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector, TSPLINE);
+  const bool compared = this->Domain == AUTOMATIC;
+  const SegmentFits fits = FitSegments(
+    segments, options, rounds, why, chain, this->GetProgress(), compared ? AllFitted : 1.0);
+  if (compared)
+  {
+    const auto box = this->FitBox(image, chain, AllFitted, 1.0);
+    if (this->IsBoxBetter(box, fits))
+    {
+      output->ShallowCopy(box->GetOutput());
+      rounds->ShallowCopy(box->GetOutputDataObject(1));
+      return;
+    }
+  }
   this->Warn(why);
-  TSplineToGrid(model, vtkUnstructuredGrid::GetData(outputVector, TSPLINE));
+  TSplineToGrid(fits.Model, output);
 }
 
 //------------------------------------------------------------------------------
@@ -404,7 +418,9 @@ int vtkTSplineReconstruction::RequestData(
       const std::vector<vtkDataArray*> arrays = this->ChosenArrays(input);
       if (this->Domain == BOX)
       {
-        this->FitBox(MakeImage(input, arrays, nullptr), chain, outputVector);
+        const auto fit = this->FitBox(MakeImage(input, arrays, nullptr), chain, 0.0, 1.0);
+        vtkUnstructuredGrid::GetData(outputVector, TSPLINE)->ShallowCopy(fit->GetOutput());
+        vtkTable::GetData(outputVector, ROUNDS)->ShallowCopy(fit->GetOutputDataObject(1));
       }
       else
       {
@@ -412,7 +428,7 @@ int vtkTSplineReconstruction::RequestData(
         this->FitParts(MakeImage(input, arrays, labels), labels != nullptr,
           this->GivenDomains(vtkUnstructuredGrid::GetData(inputVector[1])), chain, outputVector);
       }
-      WriteSeconds(chain, vtkTable::GetData(outputVector, ROUNDS)->GetFieldData());
+      WriteSeconds(chain, vtkTable::GetData(outputVector, ROUNDS));
       return 1;
     });
 }

@@ -13,10 +13,12 @@
  * vtkTSplineFit, each with its defaults. A segment is fitted over its bounding box, the voxels of
  * other segments masked. With Domain AUTOMATIC every segment for which vtkPolycubeDomain finds a
  * domain is fitted a second time, over its cubes (vtkFrameField, vtkVolumeParameterization), with
- * as many control points; what is more accurate in the round trip is kept. With Domain GIVEN the
- * segments with a domain in the second input are fitted over that. A warning tells why a segment
- * with a domain stays with its box: no cubes, folds, voxels that are missed. Up to 2 % of the
- * voxels may be missed; these are counted to the lowest segment.
+ * as many control points, and what is more accurate in the round trip is kept; then one spline is
+ * fitted over the whole image, and if it is more accurate than all segments together (or, where
+ * both meet the tolerance, has fewer control points), it is the result, and a warning says so. With
+ * Domain GIVEN the segments with a domain in the second input are fitted over that. A warning tells
+ * why a segment with a domain stays with its box: no cubes, folds, voxels that are missed. Up to 2
+ * % of the voxels may be missed; these are counted to the lowest segment.
  *
  * @par Input
  * Port 0: a vtkImageData with two or more points along each axis. The point array to fit is chosen
@@ -33,7 +35,8 @@
  *
  * @par Output
  * Port 0: the T-spline grid; the control points' arrays Segment and Block tell whose they are.
- * Port 1: vtkTable, the rounds of all fits, with the columns of vtkTSplineFit and Segment. Field
+ * Port 1: vtkTable, the rounds of all fits, with the columns of vtkTSplineFit and Segment (but not
+ * of one spline over the whole image). Field
  * data: Step (string) and StepSeconds (double), where the time went: the names of the filters
  * without "vtk", FitOverBox and FitOverCubes.
  * Unless Domain is BOX also:
@@ -75,12 +78,14 @@
 class vtkDataArray;
 class vtkImageData;
 class vtkPolyData;
+class vtkTSplineFit;
 
 namespace trivariate
 {
 struct Chain;
 struct FilledDomains;
 struct GivenDomain;
+struct SegmentFits;
 }
 
 class VTKTRIVARIATEFILTERS_EXPORT vtkTSplineReconstruction : public vtkUnstructuredGridAlgorithm
@@ -96,7 +101,8 @@ public:
     BOX = 0,
     /// A spline for each segment, over its bounding box.
     SEGMENTS = 1,
-    /// A spline for each segment, over its cubes or its bounding box, whichever is better.
+    /// A spline for each segment, over its cubes or its bounding box, or one over the image's box,
+    /// whichever is better.
     AUTOMATIC = 2,
     /// A spline for each segment, over the cubes of the second input where it has some.
     GIVEN = 3
@@ -177,7 +183,9 @@ private:
   std::vector<vtkDataArray*> ChosenArrays(vtkImageData* image);
   vtkDataArray* ChosenLabels(vtkImageData* image);
   std::vector<trivariate::GivenDomain> GivenDomains(vtkUnstructuredGrid* grid);
-  void FitBox(vtkImageData* image, trivariate::Chain& chain, vtkInformationVector* outputVector);
+  vtkSmartPointer<vtkTSplineFit> FitBox(
+    vtkImageData* image, trivariate::Chain& chain, double from, double to);
+  bool IsBoxBetter(vtkTSplineFit* box, const trivariate::SegmentFits& segments);
   void FitParts(vtkImageData* image, bool labelled,
     const std::vector<trivariate::GivenDomain>& given, trivariate::Chain& chain,
     vtkInformationVector* outputVector);

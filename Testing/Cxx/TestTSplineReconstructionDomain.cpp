@@ -136,6 +136,32 @@ TEST(TSplineReconstruction, TakesTheBetterOfCubesAndBox)
 }
 
 //------------------------------------------------------------------------------
+// Where nothing jumps from one segment to the other, one smooth spline needs fewer control points.
+TEST(TSplineReconstruction, TakesOneSplineForAllWhereThatIsBetter)
+{
+  const auto image = Phantom();
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    image->GetPoint(i, x);
+    image->GetPointData()->GetScalars()->SetTuple1(
+      i, std::sin(0.3 * x[0]) * std::cos(0.15 * x[1]) + 0.1 * x[2]);
+  }
+  auto reconstruction = Reconstruct(image);
+  reconstruction->SetMaximumNumberOfControlPoints(600);
+  reconstruction->SetRMSTolerance(0.0);
+  reconstruction->SetDomainToAutomatic();
+  reconstruction->Update();
+  auto box = Reconstruct(image);
+  box->SetMaximumNumberOfControlPoints(600);
+  box->SetRMSTolerance(0.0);
+  box->SetDomainToBox();
+  box->Update();
+  ExpectSame(reconstruction->GetOutput(), box->GetOutput());
+  EXPECT_GT(Output<vtkUnstructuredGrid>(reconstruction, 7)->GetNumberOfCells(), 0);
+}
+
+//------------------------------------------------------------------------------
 // The corners found, with u, v, w called v, w, u: what comes out has them so, and stands for every
 // voxel.
 TEST(TSplineReconstruction, TakesCubesAndCornersThatAreGiven)
