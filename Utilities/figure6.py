@@ -25,7 +25,7 @@ from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 import meshes
 from views import Views, checkers, draw, draw_flat, draw_spheres, draw_tubes, look, write
 
-RUNS = ["tooth=105+:3", "ankle_128=40:4", "fuel=15:1.5", "hydrogen_atom=20:1.5"]
+RUNS = ["tooth=105+:4", "ankle_128=40:6", "fuel=15:2", "hydrogen_atom=20:2"]
 TITLES = ("patches, borders, corners", "parameters of the surface", "u, v, w on a cut")
 # Each is cut across the direction of its domain that is closest to the one here.
 ACROSS = {"tooth": (0, -1, 0), "ankle_128": (-1, 0, 0), "fuel": (0, -1, 0),
