@@ -4,7 +4,7 @@
 """Fits thresholded volumes over their domains and prints the table of Documentation/Results.md.
 
     . BUILD/environment.sh
-    python3 Utilities/fits.py FOLDER tooth=105+:4:2000,5000,15000 fuel=15/cube:2:280,800,2000 ...
+    python3 Utilities/fits.py [--identity] FOLDER tooth=105+:4:2000,5000 fuel=15/cube:2:280,800 ...
 
 Each argument is a volume, its thresholds as in domains.py (i of them are exceeded in segment i; with
 + cavities of what exceeds the first are filled), /cube for a domain without layers, the wanted edge
@@ -13,14 +13,14 @@ parameters is kept in FOLDER, made from domain, frames and parameterization if i
 
 All voxels of the segments that exceed the first threshold and have parameters count, cavities do not.
 RMS is that of the round trip: the spline at the places of the voxels, in parts of the range of the
-whole volume, times 100; "ramp" and "inside" are up to 1.5 voxels from the surface and beyond. Beside
-it: T-Spline Fit of the same voxels in the image's own directions (identity), which stores one number
-a control point, at as many control points, and at as many numbers. Seconds are those of the
+whole volume, times 100; "ramp" and "inside" are up to 1.5 voxels from the surface and beyond.
+With --identity beside it: T-Spline Fit of the same voxels in the image's own directions, which stores
+one number a control point, at as many control points, and at as many numbers. Seconds are those of the
 processor.
 """
+import argparse
 import os
 import pathlib
-import sys
 import time
 
 import numpy
@@ -181,7 +181,7 @@ def errors_of(grid, image):
     return error**2, array_of(result, "vtkValidPointMask") > 0
 
 
-def print_rows(folder, argument):
+def print_rows(folder, argument, with_identity):
     volume, edge, counts = argument.split(":")
     image, *domain = load(folder, volume, edge)
     image.GetPointData().SetActiveScalars("Density")
@@ -201,8 +201,9 @@ def print_rows(folder, argument):
         squares, found = errors_of(grid, image)
         numbers = int(field_of(table, "NumbersStored"))
         distance, cells = field_of(table, "ShapeDistance"), field_of(table, "ShapeCells")
-        identity = [(last_of(plain, "ControlPoints"), scale * last_of(plain, "RMS"))
-                    for _, plain, _ in (fit(image, n) for n in (count, numbers))]
+        identity = ["-", "-"]
+        if with_identity:
+            identity = [f"{scale * last_of(fit(image, n)[1], 'RMS'):.2f}" for n in (count, numbers)]
         print(f"| {volume.replace('=', ' > ')} | {last_of(table, 'ControlPoints'):,} "
               f"| {int(field_of(table, 'ShapeControlPoints')):,} | {numbers:,} "
               f"| {scale * last_of(table, 'RMS'):.2f} | {rms(squares, counted & found):.2f} "
@@ -211,12 +212,17 @@ def print_rows(folder, argument):
               f"{rms(squares, counted & found & ~ramp):.2f} "
               f"| {distance[0]:.2f}, {distance[1]:.1f} "
               f"| {cells[1]} / {cells[0] - cells[1] - cells[2]} / {cells[0]} "
-              f"| {identity[0][1]:.2f} | {identity[1][1]:.2f} | {seconds:.0f} |", flush=True)
+              f"| {identity[0]} | {identity[1]} | {seconds:.0f} |", flush=True)
 
 
+parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+parser.add_argument("--identity", action="store_true", help="the baselines, too")
+parser.add_argument("folder", type=pathlib.Path)
+parser.add_argument("runs", nargs="+", metavar="VOLUME=THRESHOLDS:EDGE:COUNTS")
+arguments = parser.parse_args()
 print("| segment | control points | shape | numbers stored | RMS | RMS, found | found | ramp, inside "
       "| distance of the shape: RMS, largest | its cells: folded / not proven / all "
       "| identity, as many points | identity, as many numbers | CPU s |")
 print("|---|---|---|---|---|---|---|---|---|---|---|---|---|")
-for run in sys.argv[2:]:
-    print_rows(pathlib.Path(sys.argv[1]), run)
+for run in arguments.runs:
+    print_rows(arguments.folder, run, arguments.identity)

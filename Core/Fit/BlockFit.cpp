@@ -9,11 +9,9 @@
 #include "ShapeInverse.h"
 #include "ShapeJacobian.h"
 #include "ShapeTarget.h"
-#include "TSpline/Evaluator.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace trivariate
@@ -25,6 +23,9 @@ constexpr int FinalIterations = 400;
 // How far outside of the surface the shape is to lie, in voxels: those at the surface are to be
 // inside, also where the chords of the block mesh cut them off.
 constexpr double Margin = 0.25;
+
+// How often voxels that are still outside pull the surface over themselves.
+constexpr int Pulls = 4;
 
 // How often the samples of the surface slide after a solution between refinements, and after the
 // last one.
@@ -124,9 +125,45 @@ private:
       std::min(this->Options.MaximumShapePoints, this->Options.MaximumControlPoints), &target };
     this->Adapt(stage);
     this->Result.ShapePoints = system.Points().Count();
+    if (target.Slides())
+    {
+      this->CoverVoxels(target);
+    }
     this->Result.ShapeRms = this->Result.Rounds.back().Rms;
     this->Result.ShapeMaximum = this->Result.Rounds.back().MaximumError;
     this->Result.Rounds.clear();
+  }
+
+  // Voxels that are still outside pull the surface next to them over themselves.
+  void CoverVoxels(ShapeTarget& target)
+  {
+    std::vector<double> places = this->Voxels.Places, starts = this->Voxels.Parameters;
+    for (int pull = 0; pull < Pulls; ++pull)
+    {
+      const BezierMesh mesh(this->Result.Spline, this->Run);
+      const FoundParameters found = FindParametersOnShape(
+        this->Result.Spline, mesh, this->Blocks, places, starts, this->Shape, this->Run);
+      std::vector<double> outside, feet;
+      for (const Index i : found.Outside)
+      {
+        outside.insert(outside.end(), &places[3 * i], &places[3 * i] + 3);
+        feet.insert(feet.end(), &found.Parameters[3 * i], &found.Parameters[3 * i] + 3);
+      }
+      this->Lap("cover");
+      if (outside.empty())
+      {
+        return;
+      }
+      target.Pull(feet, outside);
+      ScatteredSystem system(target.Samples(), 0, this->Layout, this->Run);
+      Stage stage{ system, 0, std::vector<double>(3, 1.0), 0.0, 0.0, 0, &target };
+      this->Update(stage);
+      this->Slide(stage);
+      this->Solve(stage, FinalTolerance, FinalIterations);
+      this->Measure(stage);
+      places = std::move(outside);
+      starts = std::move(feet);
+    }
   }
 
   void FitAttributes(const ScatteredSamples& samples)
@@ -373,25 +410,7 @@ private:
     FoundParameters found = FindParametersOnShape(
       this->Result.Spline, mesh, this->Blocks, this->Voxels.Places, starts, this->Shape, this->Run);
     this->Result.VoxelsInside = found.Inside;
-    this->ReportJacobian(mesh, found.Parameters);
-    return std::move(found.Parameters);
-  }
-
-  void ReportJacobian(const BezierMesh& mesh, const std::vector<double>& parameters)
-  {
-    const Index n = this->Voxels.Count();
-    const Evaluator evaluator(this->Result.Spline, mesh, { 0, 1, 2 }, this->Run);
-    std::vector<double> gradients(9 * n);
-    EvaluatorOutput output;
-    output.Gradients = gradients.data();
-    evaluator.Evaluate(n, parameters.data(), output, this->Run);
-    double sum = 0.0, least = std::numeric_limits<double>::max();
-    for (Index i = 0; i < n; ++i)
-    {
-      const double determinant = JacobianDeterminant(&gradients[9 * i]);
-      sum += determinant;
-      least = std::min(least, determinant);
-    }
+    auto [least, mean] = JacobianAt(this->Result.Spline, mesh, found.Parameters, this->Run);
     for (const CellJacobian& cell : BoundJacobian(this->Result.Spline, mesh, this->Run))
     {
       least = std::min(least, cell.Sampled);
@@ -399,7 +418,8 @@ private:
       this->Result.CertifiedCells += cell.Certified;
     }
     this->Result.ShapeCells = mesh.Size();
-    this->Result.SmallestJacobian = least * static_cast<double>(n) / sum;
+    this->Result.SmallestJacobian = least / mean;
+    return std::move(found.Parameters);
   }
 
   const BlockComplex& Blocks;

@@ -102,7 +102,7 @@ FoundParameters FindParametersOnShape(const TSpline& spline, const BezierMesh& m
   result.Parameters.resize(3 * n);
   std::vector<std::uint8_t> found(n);
   inverse.Find(n, places.data(), result.Parameters.data(), found.data(), execution);
-  std::vector<Index> lost;
+  std::vector<Index>& lost = result.Outside;
   for (Index i = 0; i < n; ++i)
   {
     if (!found[i])

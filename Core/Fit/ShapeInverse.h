@@ -15,6 +15,7 @@ struct FoundParameters
 {
   std::vector<double> Parameters; ///< (u, v, w) of each place
   Index Inside = 0;               ///< places that the shape passes through (see InverseMap)
+  std::vector<Index> Outside;     ///< the others
 };
 
 /**

@@ -9,6 +9,7 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <limits>
 
 namespace trivariate
 {
@@ -155,5 +156,25 @@ std::vector<CellJacobian> BoundJacobian(
       });
   }
   return bounds;
+}
+
+//------------------------------------------------------------------------------
+std::pair<double, double> JacobianAt(const TSpline& spline, const BezierMesh& mesh,
+  const std::vector<double>& parameters, const Execution& execution)
+{
+  const auto n = static_cast<Index>(parameters.size() / 3);
+  const Evaluator evaluator(spline, mesh, { 0, 1, 2 }, execution);
+  std::vector<double> gradients(9 * n);
+  EvaluatorOutput output;
+  output.Gradients = gradients.data();
+  evaluator.Evaluate(n, parameters.data(), output, execution);
+  double sum = 0.0, least = std::numeric_limits<double>::max();
+  for (Index i = 0; i < n; ++i)
+  {
+    const double determinant = JacobianDeterminant(&gradients[9 * i]);
+    sum += determinant;
+    least = std::min(least, determinant);
+  }
+  return { least, sum / static_cast<double>(n) };
 }
 }

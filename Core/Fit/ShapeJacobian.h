@@ -7,6 +7,7 @@
 #include "Execution.h"
 #include "TSpline/BezierMesh.h"
 
+#include <utility>
 #include <vector>
 
 namespace trivariate
@@ -18,6 +19,10 @@ struct CellJacobian
   /// direction; its Bernstein coefficients, on the cell or on parts of it, are all positive.
   bool Certified = false;
 };
+
+/// The least and the mean determinant at points of the parameter space, (u, v, w) of each.
+std::pair<double, double> JacobianAt(const TSpline& spline, const BezierMesh& mesh,
+  const std::vector<double>& parameters, const Execution& execution = {});
 
 /**
  * One for each cell. The weighted functions must sum to one. About 50 microseconds a cell, eight

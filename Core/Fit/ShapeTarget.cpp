@@ -105,6 +105,27 @@ Eigen::Vector3d ShapeTarget::NearestTarget(const Sheet& sheet, const Eigen::Vect
 }
 
 //------------------------------------------------------------------------------
+void ShapeTarget::Pull(const std::vector<double>& parameters, const std::vector<double>& places)
+{
+  const Index before = this->Targets.Count(), more = static_cast<Index>(parameters.size() / 3);
+  std::vector<double> values;
+  for (int a = 0; a < 3; ++a)
+  {
+    const auto begin = this->Targets.Values.begin() + a * before;
+    values.insert(values.end(), begin, begin + before);
+    for (Index i = 0; i < more; ++i)
+    {
+      values.push_back(places[3 * i + a]);
+    }
+  }
+  this->Targets.Values = std::move(values);
+  std::vector<double>& all = this->Targets.Parameters;
+  all.insert(all.end(), parameters.begin(), parameters.end());
+  this->Targets.Weights.resize(before + more, SurfaceWeight);
+  this->SheetOf.resize(before + more, nullptr);
+}
+
+//------------------------------------------------------------------------------
 void ShapeTarget::Slide(const TSpline& spline, const BezierMesh& mesh, const Execution& execution)
 {
   const Index n = this->Targets.Count();

@@ -38,6 +38,9 @@ public:
   /// Moves the samples of the surface to where it is nearest to the spline.
   void Slide(const TSpline& spline, const BezierMesh& mesh, const Execution& execution);
 
+  /// Adds places that the surface is to reach at parameters on it.
+  void Pull(const std::vector<double>& parameters, const std::vector<double>& places);
+
   /// How far the spline was from the surface at the samples on it when they slid last; without a
   /// surface NaN.
   ScatteredError Distance() const { return this->Distances; }
