@@ -17,10 +17,7 @@ makers = {
     "fit": lambda: TSplineFit(Input=image, Scalars=["POINTS", "RTData"],
                               MaximumNumberOfControlPoints=200),
     "boundary": lambda: SegmentBoundary(Input=image, UseDensity=0),
-    "segmentation": lambda: TextureSegmentation(Input=wavelet, Scalars=["POINTS", "RTData"]),
-    # Two probabilities of each of 64 segments for each point: 2.1 GB at the worst.
-    "tables": lambda: TextureSegmentation(Input=wavelet, Scalars=["POINTS", "RTData"],
-                                          NumberOfSegments=64)}
+    "segmentation": lambda: TextureSegmentation(Input=wavelet, Scalars=["POINTS", "RTData"])}
 limited = makers[step]()
 if vtkMultiProcessController.GetGlobalController().GetLocalProcessId() == int(rank):
     if float(limit) < 1.0:
