@@ -14,7 +14,7 @@ namespace trivariate
 {
 /// How far nodes of a block mesh may leave the surface, in voxels: as chords of cells must to hold
 /// its volume, and less than the surface itself may be off.
-constexpr double FreedomOfNodes = 0.4;
+constexpr double FreedomOfNodes = 0.45;
 
 struct DomainInput
 {

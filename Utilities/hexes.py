@@ -9,7 +9,9 @@
 
 Each row is a volume, its threshold and the wanted edge of a cell in space, on the domain that
 domains.py saved in FOLDER; the mesh goes there too. The volume of the cells is compared with that of
-the segment's surface. Seconds are those of the processor.
+the segments' surface. Distances, in voxels, are the farthest from points of the surface to the faces
+of cells, with the 99th percentile, and from points of those faces (4 x 4 of each) to the surface.
+Seconds are those of the processor.
 """
 import pathlib
 import sys
@@ -17,7 +19,11 @@ import time
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkFiltersCore import vtkMassProperties
+from vtkmodules.vtkFiltersCore import (vtkAppendPolyData, vtkMassProperties, vtkThreshold,
+                                       vtkTriangleFilter)
+from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
+from vtkmodules.vtkFiltersModeling import (vtkHausdorffDistancePointSetFilter,
+                                           vtkLinearSubdivisionFilter)
 from vtkmodules.vtkFiltersVerdict import vtkMeshQuality
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
@@ -32,6 +38,47 @@ def volumes_of(cells):
     return vtk_to_numpy(quality.GetOutput().GetCellData().GetArray("Quality"))
 
 
+def faces_of(cells):
+    """The faces of each segment's cells that are not between two of them, each cut into triangles."""
+    segments = numpy.unique(vtk_to_numpy(cells.GetCellData().GetArray("Segment")))
+    faces = vtkAppendPolyData()
+    for segment in segments:
+        own = vtkThreshold()
+        own.SetInputData(cells)
+        own.SetInputArrayToProcess(0, 0, 0, 1, "Segment")
+        own.SetLowerThreshold(segment)
+        own.SetUpperThreshold(segment)
+        outside = vtkDataSetSurfaceFilter()
+        outside.SetInputConnection(own.GetOutputPort())
+        triangles = vtkTriangleFilter()
+        triangles.SetInputConnection(outside.GetOutputPort())
+        finer = vtkLinearSubdivisionFilter()
+        finer.SetInputConnection(triangles.GetOutputPort())
+        finer.SetNumberOfSubdivisions(2)
+        finer.Update()
+        faces.AddInputData(finer.GetOutput())
+    faces.Update()
+    return faces.GetOutput()
+
+
+def distances(patches, cells):
+    """From each point of the patches to the faces of cells, and back."""
+    farthest = vtkHausdorffDistancePointSetFilter()
+    farthest.SetInputData(0, patches)
+    farthest.SetInputData(1, faces_of(cells))
+    farthest.SetTargetDistanceMethodToPointToCell()
+    farthest.Update()
+    return [vtk_to_numpy(farthest.GetOutputDataObject(port).GetPointData().GetArray("Distance"))
+            for port in (0, 1)]
+
+
+def volume_inside(patches):
+    """Of all segments: a surface that two of them share is there from both sides, which cancels."""
+    surface = vtkMassProperties()
+    surface.SetInputData(patches)
+    return surface.GetVolume()
+
+
 def print_row(folder, run):
     name, edge = run.split(":")
     patches, _, polycube = meshes.read_domain(folder, name)
@@ -41,13 +88,14 @@ def print_row(folder, run):
     mesh = remesh.GetOutputDataObject(1)
     quality = vtk_to_numpy(mesh.GetCellData().GetArray("ScaledJacobian"))
     volumes = volumes_of(mesh)
-    surface = vtkMassProperties()
-    surface.SetInputData(patches)
+    out, back = distances(patches, mesh)
     low, high = numpy.percentile(volumes, [1, 99]) / volumes.mean()
     print(f"| {name.replace('=', ' > ')} | {edge} | {mesh.GetNumberOfCells():,} "
           f"| {remesh.GetInvertedBefore():,}, then {remesh.GetInvertedCells():,} "
           f"| {quality.min():.2f}, {quality.mean():.3f} | {low:.2f} to {high:.2f} "
-          f"| {100 * (volumes.sum() / surface.GetVolume() - 1):+.1f} % | {seconds:.1f} |", flush=True)
+          f"| {100 * (volumes.sum() / volume_inside(patches) - 1):+.2f} % "
+          f"| {out.max():.2f} ({numpy.percentile(out, 99):.2f}), {back.max():.2f} | {seconds:.1f} |",
+          flush=True)
     writer = vtkXMLUnstructuredGridWriter()
     writer.SetInputData(mesh)
     writer.SetFileName(str(folder / f"{meshes.stem(name)}_hexes.vtu"))
@@ -56,6 +104,7 @@ def print_row(folder, run):
 
 
 print("| segment | edge | cells | inverted | scaled Jacobian: least, mean | cell volumes, 1 to 99 % of "
-      "the mean | volume | CPU s |\n|---|---|---|---|---|---|---|---|")
+      "the mean | volume | distance: surface to cells (99 %), back | CPU s |\n"
+      "|---|---|---|---|---|---|---|---|---|")
 for argument in sys.argv[2:]:
     print_row(pathlib.Path(sys.argv[1]), argument)

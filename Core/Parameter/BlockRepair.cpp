@@ -20,9 +20,10 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr int MostHalvings = 8;
-constexpr double AtEnd = 0.99;
-constexpr int AssignEvery = 3; // sweeps
-constexpr double LateFitting = 0.1;
+constexpr Index MovedAtOnce = 8192; // nodes, less than a second of work, before the next check
+constexpr double AtEnd = 0.99;      // of the freedom off the surface
+constexpr int AssignEvery = 3;      // sweeps
+constexpr double LateFitting = 0.1; // where folds stay
 constexpr double LongestStep = 1.0; // in wanted lengths
 constexpr double Sharp = 1e-8;      // the regularisation where nothing is inverted
 constexpr double Flat = 0.01;       // a determinant so small is treated as if it were inverted
@@ -54,8 +55,8 @@ public:
   {
   }
 
-  /// One move of each active node.
-  void Sweep(const Execution& execution);
+  /// One move of each active node; done: what is reported as the share of the work.
+  void Sweep(double done, const Execution& execution);
 
   /// Only nodes in some rings around cells that are inverted; or all of them.
   void Activate(bool all);
@@ -190,22 +191,27 @@ void Sweeper::Move(Index node, std::vector<CornerTerm>& terms)
   }
 }
 
-void Sweeper::Sweep(const Execution& execution)
+void Sweeper::Sweep(double done, const Execution& execution)
 {
   for (const std::vector<Index>& nodes : this->Cells.Colours)
   {
-    execution.ParallelFor(static_cast<Index>(nodes.size()),
-      [&](Index begin, Index end)
-      {
-        std::vector<CornerTerm> terms;
-        for (Index i = begin; i < end; ++i)
+    const Index count = static_cast<Index>(nodes.size());
+    for (Index first = 0; first < count; first += MovedAtOnce)
+    {
+      execution.Check(done);
+      execution.ParallelFor(std::min(MovedAtOnce, count - first),
+        [&](Index begin, Index end)
         {
-          if (this->Active[nodes[i]])
+          std::vector<CornerTerm> terms;
+          for (Index i = first + begin; i < first + end; ++i)
           {
-            this->Move(nodes[i], terms);
+            if (this->Active[nodes[i]])
+            {
+              this->Move(nodes[i], terms);
+            }
           }
-        }
-      });
+        });
+    }
   }
 }
 
@@ -318,10 +324,9 @@ void Repair(BlockMesh& mesh, SlidingNodes& sliding, BoundaryFit& fit,
   Sweeper sweeper(mesh, sliding, fit, targets, options.Fitting);
   const double all = options.MostUntangling + options.MostSmoothing;
   double energy = std::numeric_limits<double>::infinity();
-  for (int sweep = 0, untangling = 0, smoothing = 0;
-       untangling < options.MostUntangling && smoothing < options.MostSmoothing; ++sweep)
+  for (int sweep = 0, untangling = 0, smoothing = 0; untangling < options.MostUntangling; ++sweep)
   {
-    execution.Check((untangling + smoothing) / all);
+    const double done = (untangling + smoothing) / all;
     if (sweep % AssignEvery == 0)
     {
       fit.Assign(mesh.Places, execution);
@@ -341,14 +346,14 @@ void Repair(BlockMesh& mesh, SlidingNodes& sliding, BoundaryFit& fit,
       sweeper.Activate(true);
       const double now =
         sweeper.Energy(Sharp, execution) + options.Fitting * fit.Energy(mesh.Places);
-      if (now > (1.0 - options.Settled) * energy)
+      if (now > (1.0 - options.Settled) * energy || smoothing == options.MostSmoothing)
       {
         break;
       }
       energy = now;
       ++smoothing;
     }
-    sweeper.Sweep(execution);
+    sweeper.Sweep(done, execution);
   }
 }
 }

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
 
 using namespace trivariate;
 using namespace trivariate_testing;
@@ -229,6 +230,29 @@ TEST(BlockMeshing, CoversABump)
   const BlockMesh mesh = MakeBlockMesh(domain, options, Execution());
   ExpectSound(domain, mesh, VolumeOf(surface), 0.5, 0.005);
   EXPECT_LT(FarthestOf(domain, mesh), 0.75); // half a cell
+}
+
+TEST(BlockMeshing, StopsWithinASecond)
+{
+  const SurfaceMesh surface =
+    Moved(Icosphere(6), [](const Vector3d& p) { return Vector3d(10.0 * p); });
+  const SegmentDomain ball = FindDomain(surface, DomainOptions(), Execution());
+  const BlockDomain domain = DomainOfSegment(LayeredBlocks(ball, 2.5, Execution()), ball);
+  BlockMeshOptions options;
+  options.CellLength = 0.7;
+  const auto seconds = [] { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
+  double last = seconds(), longest = 0.0, progress = 0.0;
+  Execution execution;
+  execution.Continue = [&](double done)
+  {
+    longest = std::max(longest, seconds() - last);
+    last = seconds();
+    EXPECT_GE(done, progress);
+    progress = done;
+    return done < 0.214; // in the finest mesh
+  };
+  EXPECT_THROW(MakeBlockMesh(domain, options, execution), Aborted);
+  EXPECT_LT(longest, 1.0);
 }
 
 //------------------------------------------------------------------------------

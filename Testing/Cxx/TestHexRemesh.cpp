@@ -185,7 +185,7 @@ TEST(HexRemesh, ResamplesGivenMeshes)
   vtkNew<vtkCellLocator> locator;
   locator->SetDataSet(fine.Domain->GetPatches());
   locator->BuildLocator();
-  // The ends of the first layer's grid on its patch are on the surface, to 0.4 voxels.
+  // The ends of the first layer's grid on its patch are on the surface, to 0.45 voxels.
   for (unsigned int b = 1; b < 7; ++b)
   {
     vtkStructuredGrid* grid = fine.Grid(b);
@@ -197,7 +197,7 @@ TEST(HexRemesh, ResamplesGivenMeshes)
       int sub;
       grid->GetPoint(p, x);
       locator->FindClosestPoint(x, nearest, cell, sub, square);
-      near += square < 0.16 + 1e-9;
+      near += square < 0.45 * 0.45 + 1e-9;
     }
     EXPECT_GE(near, 49);
   }
