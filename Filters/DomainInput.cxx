@@ -101,6 +101,15 @@ DomainInput ReadDomain(vtkPolyData* patches, vtkUnstructuredGrid* polycube)
 
   const Numbers corner(patches->GetPointData(), "CornerId", 1, "points of the patches");
   parts.SurfacePoints = PointsOf(patches);
+  vtkDataArray* parameter = patches->GetPointData()->GetArray("Parameter");
+  if (parameter && parameter->GetNumberOfComponents() == 3)
+  {
+    parts.Parameters.resize(parts.SurfacePoints.size());
+    for (vtkIdType p = 0; p < patches->GetNumberOfPoints(); ++p)
+    {
+      parameter->GetTuple(p, parts.Parameters[p].data());
+    }
+  }
   for (vtkIdType p = 0; p < patches->GetNumberOfPoints(); ++p)
   {
     const auto found = pointOfCorner.find(corner(p));

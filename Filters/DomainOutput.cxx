@@ -154,6 +154,9 @@ void Writer::Patches(vtkPolyData* output) const
 {
   const vtkNew<vtkPoints> points = DoublePoints();
   const auto cornerId = Named<vtkIntArray>("CornerId");
+  const auto parameter = Named<vtkDoubleArray>("Parameter", 3);
+  parameter->SetNumberOfTuples(this->NumberOfPoints);
+  parameter->Fill(0.0);
   points->SetNumberOfPoints(this->NumberOfPoints);
   cornerId->SetNumberOfValues(this->NumberOfPoints);
   cornerId->FillValue(-1);
@@ -164,6 +167,10 @@ void Writer::Patches(vtkPolyData* output) const
     for (std::size_t p = 0; p < layout.Points.size(); ++p)
     {
       points->SetPoint(own.Points[p], layout.Points[p].data());
+    }
+    for (std::size_t p = 0; p < layout.Parameters.size(); ++p)
+    {
+      parameter->SetTypedTuple(own.Points[p], layout.Parameters[p].data());
     }
     for (std::size_t corner = 0; corner < layout.Corners.size(); ++corner)
     {
@@ -212,6 +219,7 @@ void Writer::Patches(vtkPolyData* output) const
   output->SetPoints(points);
   output->SetPolys(cells);
   output->GetPointData()->AddArray(cornerId);
+  output->GetPointData()->AddArray(parameter);
   output->GetCellData()->SetScalars(patch); // ParaView's first choice for colors
   vtkDataArray* const arrays[] = { axis, side, owner, labels };
   for (vtkDataArray* array : arrays)

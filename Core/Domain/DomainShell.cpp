@@ -79,7 +79,10 @@ std::optional<SegmentDomain> WithCorners(const SurfaceMesh& surface, const Segme
 {
   try
   {
-    return DomainFromCorners(surface, other.Cubes, corners, execution);
+    SegmentDomain domain =
+      DomainFromCorners(surface, other.Cubes, corners, execution.Part(0.0, 0.3));
+    RelaxDomain(domain, execution.Part(0.3, 1.0));
+    return domain;
   }
   catch (const std::invalid_argument&)
   {
@@ -160,6 +163,11 @@ SegmentDomain TurnedToward(const SegmentDomain& domain, const SegmentDomain& oth
     newCorner[corner] = cornerAt(best * centred(domain.Cubes, corner));
     turned.Layout.Corners[newCorner[corner]] = domain.Layout.Corners[corner];
     turned.Places[newCorner[corner]] = domain.Places[corner];
+  }
+  for (Vector3d& place : turned.Layout.Parameters)
+  {
+    const Vector3d middle = low.cast<double>() + Vector3d::Constant(0.5);
+    place = middle + best.cast<double>() * (place - middle);
   }
   // Of one cube, patches are numbered as labels: 2 axis + side.
   std::array<Index, 6> newPatch;

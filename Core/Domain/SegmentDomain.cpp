@@ -8,9 +8,11 @@
 #include "HandleLoop.h"
 #include "InnerCorners.h"
 #include "LayoutCheck.h"
+#include "RelaxedLayout.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -164,6 +166,15 @@ SurfaceLayout InOrderOf(
   return layout;
 }
 
+// Places, and the alignment with the directions that are best for the whole segment.
+void MeasureStraight(SegmentDomain& domain)
+{
+  domain.Places = PlacesOf(domain.Layout, domain.Cubes);
+  const Matrix3d frame = BestFrame(domain.Layout);
+  domain.Alignment =
+    AlignmentOf(domain.Layout, [&frame](std::size_t) -> const Matrix3d& { return frame; });
+}
+
 void RefuseInvalid(const std::vector<std::string>& messages)
 {
   if (!messages.empty())
@@ -246,7 +257,12 @@ public:
     {
       throw std::runtime_error("No domain was found for the surface." + this->Handles() + reasons);
     }
-    return std::move(*this->Found);
+    SegmentDomain& domain = *this->Found;
+    if (Relax(domain.Layout, domain.Cubes, false, this->Run.Part(0.85, 1.0)))
+    {
+      this->Measure(domain);
+    }
+    return std::move(domain);
   }
 
 private:
@@ -282,12 +298,14 @@ private:
            1.0 - this->Options.CornerCost * double(corners) > this->Value(*this->Found);
   }
 
-  void Offer(SegmentDomain domain)
+  // `measure` gives a domain its places and alignment.
+  void Offer(SegmentDomain domain, const std::function<void(SegmentDomain&)>& measure)
   {
     RefuseInvalid(CheckLayout(domain.Layout, domain.Cubes));
     if (!this->Found || this->Value(domain) > this->Value(*this->Found))
     {
       this->Found = std::make_unique<SegmentDomain>(std::move(domain));
+      this->Measure = measure;
     }
   }
 
@@ -300,23 +318,25 @@ private:
     {
       refined = CutInFour(refined);
     }
-    const CubeCharts charts =
-      FindCubeCharts(refined, this->Options.Charts, this->Run.Part(0.0, 0.6));
+    const auto shared = std::make_shared<const CubeCharts>(
+      FindCubeCharts(refined, this->Options.Charts, this->Run.Part(0.0, 0.5)));
+    const CubeCharts& charts = *shared;
     const SurfaceLayout layout = LayoutFromCharts(
-      refined, charts.Labels, this->Run.Part(0.6, 0.7), StretchInEdges * MeanEdgeLength(refined));
-    const auto offer = [this, level](SegmentDomain domain)
+      refined, charts.Labels, this->Run.Part(0.5, 0.6), StretchInEdges * MeanEdgeLength(refined));
+    const auto offer = [this, level, shared](SegmentDomain domain)
     {
       for (Index& origin : domain.Layout.Origins)
       {
         origin >>= 2 * level;
       }
-      this->Offer(std::move(domain));
+      this->Offer(std::move(domain),
+        [level, shared](SegmentDomain& found) { Finish(found, *shared, level); });
     };
     std::vector<LatticePoint> corners;
     RefuseInvalid(CheckCharts(layout, &corners));
     SegmentDomain cube{ {}, Chain(0, 1), {}, 0.0 };
     cube.Layout = InOrderOf(cube.Cubes, layout, corners);
-    this->Finish(cube, charts);
+    Finish(cube, charts, 0);
     offer(cube);
 
     const auto [axis, length] = Longest(cube.Layout);
@@ -327,9 +347,9 @@ private:
       {
         return false;
       }
-      SegmentDomain chain{ CutIntoChain(cube.Layout, axis, count, this->Run.Part(0.7, 0.75)),
+      SegmentDomain chain{ CutIntoChain(cube.Layout, axis, count, this->Run.Part(0.6, 0.65)),
         Chain(axis, count), {}, 0.0 };
-      this->Finish(chain, charts);
+      Finish(chain, charts, 0);
       const bool sound = IsSound(chain);
       offer(std::move(chain));
       return sound;
@@ -345,21 +365,22 @@ private:
   void TryFlatPolycube()
   {
     const FlatPolycube flat =
-      FindFlatPolycube(this->Mesh, this->Options.MostCubes, this->Run.Part(0.75, 0.85));
+      FindFlatPolycube(this->Mesh, this->Options.MostCubes, this->Run.Part(0.65, 0.75));
     if (this->IsWorthwhile(flat.Cubes.NumberOfCorners))
     {
       this->Offer(
-        DomainFromCorners(this->Mesh, flat.Cubes, flat.Corners, this->Run.Part(0.85, 1.0)));
+        DomainFromCorners(this->Mesh, flat.Cubes, flat.Corners, this->Run.Part(0.75, 0.85)),
+        MeasureStraight);
     }
   }
 
   // Places and alignment, by the charts' directions, each cube's turned as a whole toward its own
-  // normals.
-  static void Finish(SegmentDomain& domain, const CubeCharts& charts)
+  // normals. `level`: how often each of the layout's original triangles was cut for the charts.
+  static void Finish(SegmentDomain& domain, const CubeCharts& charts, int level)
   {
     domain.Places = PlacesOf(domain.Layout, domain.Cubes);
     const auto charted = [&](std::size_t t) -> const Matrix3d&
-    { return charts.Frames[charts.FrameOfTriangle[domain.Layout.Origins[t]]]; };
+    { return charts.Frames[charts.FrameOfTriangle[domain.Layout.Origins[t] << 2 * level]]; };
     const auto cubeOf = [&domain](std::size_t t)
     { return domain.Cubes.Faces[domain.Layout.Patches[t]].Cube; };
     std::vector<Matrix3d> turns(domain.Cubes.Cubes.size(), Matrix3d::Zero());
@@ -397,6 +418,7 @@ private:
   const Execution& Run;
   const bool IsSphere;
   std::unique_ptr<SegmentDomain> Found;
+  std::function<void(SegmentDomain&)> Measure; // of the domain found
 };
 }
 
@@ -422,10 +444,16 @@ SegmentDomain DomainFromCorners(const SurfaceMesh& mesh, const Polycube& polycub
   SegmentDomain domain{ LayoutFromCorners(mesh, polycube, picked, execution, farthest, given),
     polycube, {}, 0.0 };
   RefuseInvalid(CheckLayout(domain.Layout, polycube));
-  domain.Places = PlacesOf(domain.Layout, polycube);
-  const Matrix3d frame = BestFrame(domain.Layout);
-  domain.Alignment =
-    AlignmentOf(domain.Layout, [&frame](std::size_t) -> const Matrix3d& { return frame; });
+  MeasureStraight(domain);
   return domain;
+}
+
+//------------------------------------------------------------------------------
+void RelaxDomain(SegmentDomain& domain, const Execution& execution)
+{
+  if (Relax(domain.Layout, domain.Cubes, true, execution))
+  {
+    MeasureStraight(domain);
+  }
 }
 }

@@ -38,7 +38,7 @@ struct SegmentDomain
  * straight between its corners, is inverted. CheckLayout finds nothing in it. Tried are one cube,
  * chains of cubes cut from it where it is long or so bent that one is inverted, and on a surface
  * with flat parts (FlatPolycube.h) their polycube, the only one that may have handles. A surface
- * with too few triangles is cut finer.
+ * with too few triangles is cut finer. Borders of the best one are relaxed (RelaxedLayout.h).
  *
  * Throws std::invalid_argument for a surface of several pieces, std::runtime_error with the reasons
  * (and the place of a handle) where no domain can be laid out. O(n log n) beside one sparse
@@ -55,6 +55,10 @@ SegmentDomain DomainFromCorners(const SurfaceMesh& mesh, const Polycube& polycub
   const std::vector<Eigen::Vector3d>& picked, const Execution& execution,
   double farthest = std::numeric_limits<double>::infinity(),
   const std::vector<GivenBorder>& given = {});
+
+/// Moves the borders of a domain from corners, which stay, to where it is stretched least (see
+/// RelaxedLayout.h). Leaves it as it is where that cannot be done.
+void RelaxDomain(SegmentDomain& domain, const Execution& execution);
 }
 
 #endif

@@ -29,6 +29,9 @@ struct SurfaceLayout
   std::vector<ChartLabel> PatchLabels; ///< of each patch: 2 axis + side
   std::vector<Index> Corners;          ///< points
   std::vector<LayoutBorder> Borders;
+  /// Of each point: where it is mapped to on the polycube's surface, in coordinates of the lattice,
+  /// one to one; empty where no such map was made (LayoutRelaxation.h).
+  std::vector<Eigen::Vector3d> Parameters = {};
 };
 
 /**

@@ -29,6 +29,9 @@ void Append(DomainParts& parts, const SegmentDomain& domain, bool reversed, Inde
   const Index firstPatch =
     parts.PatchOf.empty() ? 0 : *std::max_element(parts.PatchOf.begin(), parts.PatchOf.end()) + 1;
   parts.SurfacePoints.insert(parts.SurfacePoints.end(), layout.Points.begin(), layout.Points.end());
+  parts.Parameters.insert(
+    parts.Parameters.end(), layout.Parameters.begin(), layout.Parameters.end());
+  parts.Parameters.resize(parts.SurfacePoints.size(), Eigen::Vector3d::Zero());
   parts.CornerOf.resize(parts.SurfacePoints.size(), -1);
   for (std::size_t corner = 0; corner < layout.Corners.size(); ++corner)
   {
@@ -180,6 +183,32 @@ std::vector<Index> BlockDomain::Border(Index from, Index to) const
   return line;
 }
 
+//------------------------------------------------------------------------------
+std::vector<double> BlockDomain::SharesAlong(const std::vector<Index>& border) const
+{
+  for (const std::vector<Eigen::Vector3d>* places : { &this->Parameters, &this->SurfacePoints })
+  {
+    std::vector<double> shares(1, 0.0);
+    bool growing = !places->empty();
+    for (std::size_t i = 1; i < border.size() && growing; ++i)
+    {
+      shares.push_back(shares.back() + ((*places)[border[i]] - (*places)[border[i - 1]]).norm());
+      growing = shares[i] > shares[i - 1] || places == &this->SurfacePoints;
+    }
+    if (growing)
+    {
+      const double whole = std::max(shares.back(), 1e-300);
+      for (double& share : shares)
+      {
+        share /= whole;
+      }
+      return shares;
+    }
+  }
+  return {};
+}
+
+//------------------------------------------------------------------------------
 Index BlockDomain::PatchOn(const FacePointSet& points) const
 {
   const auto found = this->PatchAt.find(Sorted(points));

@@ -32,7 +32,10 @@ struct DomainParts
   std::vector<int> Segments;           ///< of each block
   std::vector<Eigen::Vector3d> Points; ///< of the domain: corners of blocks
   std::vector<Eigen::Vector3d> SurfacePoints;
-  std::vector<Index> CornerOf;     ///< of each of them: the point of the domain, or -1
+  std::vector<Index> CornerOf; ///< of each of them: the point of the domain, or -1
+  /// Of each of them: its place on the surface of the polycube, in coordinates of the lattice;
+  /// empty, or all the same in a patch, where none is known.
+  std::vector<Eigen::Vector3d> Parameters;
   std::vector<Triangle> Triangles; ///< each once, also where two segments share it
   std::vector<Index> PatchOf;      ///< of each triangle, from 0
 };
@@ -49,6 +52,10 @@ public:
   /// The points of the surface along an edge of a block, from one point of the domain to another;
   /// empty where the edge is not a border.
   std::vector<Index> Border(Index from, Index to) const;
+
+  /// How far along a border each of its points is, as a share of the whole: in the domain's
+  /// parameters where they grow from point to point, else in length. From 0 to 1.
+  std::vector<double> SharesAlong(const std::vector<Index>& border) const;
 
   /// The patch on which a face with these points stands, or -1.
   Index PatchOn(const FacePointSet& points) const;

@@ -70,14 +70,14 @@ private:
   std::vector<char> Placed;
 };
 
-// The point of a polyline at a share of its length.
-Vector3d AlongLine(const std::vector<Vector3d>& line, const std::vector<double>& ways, double share)
+// The point of a polyline at a share of the way.
+Vector3d AlongLine(
+  const std::vector<Vector3d>& line, const std::vector<double>& shares, double share)
 {
-  const double way = share * ways.back();
   const std::size_t i = std::clamp<std::size_t>(
-    std::upper_bound(ways.begin(), ways.end(), way) - ways.begin(), 1, line.size() - 1);
-  const double length = ways[i] - ways[i - 1];
-  const double t = length > 0.0 ? (way - ways[i - 1]) / length : 0.0;
+    std::upper_bound(shares.begin(), shares.end(), share) - shares.begin(), 1, line.size() - 1);
+  const double length = shares[i] - shares[i - 1];
+  const double t = length > 0.0 ? (share - shares[i - 1]) / length : 0.0;
   return (1.0 - t) * line[i - 1] + t * line[i];
 }
 
@@ -86,19 +86,20 @@ void Start::PlaceBorders()
   this->ForEdges(
     [this](const std::vector<Index>& nodes)
     {
+      const std::vector<Index> border = this->Domain.Border(nodes.front(), nodes.back());
+      if (border.empty())
+      {
+        return;
+      }
       std::vector<Vector3d> line;
-      std::vector<double> ways{ 0.0 };
-      for (const Index point : this->Domain.Border(nodes.front(), nodes.back()))
+      for (const Index point : border)
       {
         line.push_back(this->Domain.SurfacePoints[point]);
-        if (line.size() > 1)
-        {
-          ways.push_back(ways.back() + (line.back() - line[line.size() - 2]).norm());
-        }
       }
-      for (std::size_t i = 1; i + 1 < nodes.size() && !line.empty(); ++i)
+      const std::vector<double> shares = this->Domain.SharesAlong(border);
+      for (std::size_t i = 1; i + 1 < nodes.size(); ++i)
       {
-        this->Place(nodes[i], AlongLine(line, ways, double(i) / (nodes.size() - 1)));
+        this->Place(nodes[i], AlongLine(line, shares, double(i) / (nodes.size() - 1)));
       }
     });
 }

@@ -10,9 +10,10 @@
 namespace trivariate
 {
 /**
- * Nodes on borders are evenly spaced, those on patches are the regular grid of their PatchMap. The
- * face across from the patch of a layer is the patch, moved as its corners are. All other edges are
- * straight, faces and blocks transfinite interpolations of what bounds them. Cells may be inverted.
+ * Nodes on borders are evenly spaced in the domain's parameters, by length without, those on
+ * patches are the regular grid of their PatchMap. The face across from the patch of a layer is the
+ * patch, moved as its corners are. All other edges are straight, faces and blocks transfinite
+ * interpolations of what bounds them. Cells may be inverted.
  */
 BlockMesh StartOfBlockMesh(const BlockDomain& domain, const std::vector<PatchMap>& maps,
   const std::vector<std::array<int, 3>>& sizes);

@@ -57,8 +57,11 @@ PatchMap::PatchMap(const BlockDomain& domain, Index patch)
   , Patch(domain.Patches[patch])
 {
   this->Number();
-  this->MapSides();
-  this->MapInside();
+  if (!this->TakeParameters())
+  {
+    this->MapSides();
+    this->MapInside();
+  }
   this->FillBuckets();
 }
 
@@ -81,6 +84,34 @@ void PatchMap::Number()
     const Triangle& c = this->Domain.Triangles[t];
     this->Triangles.push_back({ numberOf(c[0]), numberOf(c[1]), numberOf(c[2]) });
   }
+}
+
+// Whether parameters are there and fold no triangle. Faces of the polycube are unit squares.
+bool PatchMap::TakeParameters()
+{
+  if (this->Domain.Parameters.empty())
+  {
+    return false;
+  }
+  std::array<Vector3d, 4> corners;
+  for (int side = 0; side < 4; ++side)
+  {
+    corners[side] = this->Domain.Parameters[this->Patch.Sides[side].front()];
+  }
+  const Vector3d first = corners[1] - corners[0], second = corners[3] - corners[0];
+  this->Square.clear();
+  for (const Index point : this->Points)
+  {
+    const Vector3d place = this->Domain.Parameters[point] - corners[0];
+    this->Square.emplace_back(first.dot(place), second.dot(place));
+  }
+  return std::none_of(this->Triangles.begin(), this->Triangles.end(),
+    [this](const Triangle& c)
+    {
+      const Vector2d a = this->Square[c[1]] - this->Square[c[0]];
+      const Vector2d b = this->Square[c[2]] - this->Square[c[0]];
+      return !(a[0] * b[1] - a[1] * b[0] > 0.0);
+    });
 }
 
 void PatchMap::MapSides()

@@ -9,15 +9,17 @@
 namespace trivariate
 {
 /**
- * Corners 0 to 3 of the patch go to (0, 0), (1, 0), (1, 1), (0, 1), its sides to those of the
- * square by length, points inside to the means of their neighbours with mean-value weights: one to
- * one (M. S. Floater, Mean value coordinates, 2003), but for triangles with all points on one side,
- * which become flat.
+ * Corners 0 to 3 of the patch go to (0, 0), (1, 0), (1, 1), (0, 1), other points to where the
+ * domain's parameters have them on their face. Where it has none, or they fold a triangle, sides go
+ * to those of the square by length, points inside to the means of their neighbours with mean-value
+ * weights: one to one (M. S. Floater, Mean value coordinates, 2003), but for triangles with all
+ * points on one side, which become flat.
  */
 class PatchMap
 {
 public:
-  /// The domain must outlive the map. Some sparse factorisations of as many unknowns as points.
+  /// The domain must outlive the map. Without parameters some sparse factorisations of as many
+  /// unknowns as points.
   PatchMap(const BlockDomain& domain, Index patch);
 
   /// The place on the surface of a point of the square.
@@ -28,6 +30,7 @@ public:
 
 private:
   void Number();
+  bool TakeParameters();
   void MapSides();
   void MapInside();
   std::vector<Eigen::Vector2d> Solved(const std::vector<double>& divisors) const;
