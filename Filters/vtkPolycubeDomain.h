@@ -44,7 +44,9 @@
  *   bounds; PatchSide (int8): 0 at the low end of the block, 1 at the high end; Segment (int32);
  *   BoundaryLabels (int32 x 2), that segment and the one on the other side. A patch that two
  *   segments share has one number, and opposite sides.
- * - points: CornerId (int32), -1 where no corner is.
+ * - points: CornerId (int32), -1 where no corner is; Parameter (double x 3), where the point lies
+ *   on the boundary of the polycube, in DomainCoordinates: one to one on each patch, with little
+ *   stretch; zero on surfaces whose borders could not be moved to where this map wants them.
  *
  * Port 1, polycube: vtkUnstructuredGrid with a hexahedron for each block.
  * - points: DomainCoordinates (int32 x 3), where the corner lies in the integer polycube (an inner
