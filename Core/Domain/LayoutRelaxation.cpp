@@ -76,11 +76,11 @@ public:
   }
 
   // Returns the energy after a step; the same as before where there is none.
-  double Step(double before)
+  double Step(double before, bool exact)
   {
     this->Differentiate();
     this->Assemble();
-    const Eigen::VectorXd way = this->Direction();
+    const Eigen::VectorXd way = this->Direction(exact);
     const double slope = way.dot(this->Slope);
     if (!(slope < 0.0))
     {
@@ -112,10 +112,10 @@ public:
 private:
   // Solves for Newton's step by conjugate gradients, preconditioned with the last factors; factors
   // anew where that takes long.
-  Eigen::VectorXd Direction()
+  Eigen::VectorXd Direction(bool exact)
   {
     const Eigen::VectorXd right = -this->Slope;
-    if (this->Factored)
+    if (this->Factored && !exact)
     {
       const auto matrix = this->Matrix.selfadjointView<Eigen::Lower>();
       Eigen::VectorXd way = Eigen::VectorXd::Zero(right.size()), rest = right;
@@ -138,7 +138,7 @@ private:
         product = next;
       }
     }
-    else
+    if (!this->Factored)
     {
       this->Factors.analyzePattern(this->Matrix);
     }
@@ -329,7 +329,11 @@ RelaxationReport RelaxUnfolding(
   {
     const double done = double(coarsest - level) / double(coarsest + 1);
     const Execution run = execution.Part(done, done + 1.0 / double(coarsest + 1));
-    if (level < coarsest)
+    if (level == coarsest)
+    {
+      unfolding.PlaceInside(levels.Triangles(level));
+    }
+    else
     {
       levels.PlaceAgain(level);
     }
@@ -345,7 +349,7 @@ RelaxationReport RelaxUnfolding(
     for (int round = 0; idle < Patience && round < most; ++round)
     {
       run.Check(double(round) / most);
-      report.After = newton.Step(energy);
+      report.After = newton.Step(energy, level == coarsest);
       idle = energy - report.After > options.Tolerance * (energy - 1.0) ? 0 : idle + 1;
       energy = report.After;
       ++report.Rounds;

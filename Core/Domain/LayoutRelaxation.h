@@ -13,7 +13,7 @@ struct RelaxationOptions
 {
   int MostRounds = 100;    ///< of the coarsest level
   int FinerRounds = 4;     ///< of each other one
-  double Tolerance = 1e-3; ///< ends where energy above an isometry's falls by less, as a share
+  double Tolerance = 3e-3; ///< ends where energy above an isometry's falls by less, as a share
 };
 
 struct RelaxationReport

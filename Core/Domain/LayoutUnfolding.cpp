@@ -55,7 +55,6 @@ LayoutUnfolding::LayoutUnfolding(const SurfaceLayout& layout, const Polycube& cu
   }
   this->PlaceLines(layout);
   this->PlaceBorders(layout);
-  this->PlaceInside();
 }
 
 //------------------------------------------------------------------------------
@@ -314,15 +313,16 @@ void LayoutUnfolding::PlaceBorders(const SurfaceLayout& layout)
 }
 
 //------------------------------------------------------------------------------
-// Each point inside a patch in the mean of its neighbours, with positive weights: one to one in
-// convex faces (W. T. Tutte, How to draw a graph, 1963).
-void LayoutUnfolding::PlaceInside()
+void LayoutUnfolding::PlaceInside(const std::vector<ChartTriangle>& triangles)
 {
   std::vector<Index> unknown(this->OnBorder.size(), -1);
   Index unknowns = 0;
-  for (std::size_t p = 0; p < unknown.size(); ++p)
+  for (const ChartTriangle& triangle : triangles)
   {
-    unknown[p] = this->OnBorder[p] ? -1 : unknowns++;
+    for (const Index p : triangle.Points)
+    {
+      unknown[p] = this->OnBorder[p] || unknown[p] >= 0 ? unknown[p] : unknowns++;
+    }
   }
   if (unknowns == 0)
   {
@@ -330,30 +330,33 @@ void LayoutUnfolding::PlaceInside()
   }
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(unknowns, 2);
-  for (const ChartTriangle& triangle : this->Triangles)
+  for (const ChartTriangle& triangle : triangles)
   {
-    const Triangle& c = triangle.Points;
     for (int k = 0; k < 3; ++k)
     {
+      // Weights are the cotangents of opposite angles, but positive.
       const int ends[2] = { (k + 1) % 3, (k + 2) % 3 };
-      const Vector3d a = this->Mesh.Points[c[ends[0]]] - this->Mesh.Points[c[k]];
-      const Vector3d b = this->Mesh.Points[c[ends[1]]] - this->Mesh.Points[c[k]];
-      const double sine = std::max(a.cross(b).norm(), 1e-300);
-      const double weight = std::clamp(a.dot(b) / sine, LeastCotangent, MostCotangent);
+      const Vector3d& at = this->Mesh.Points[triangle.Points[k]];
+      const Vector3d a = this->Mesh.Points[triangle.Points[ends[0]]] - at;
+      const Vector3d b = this->Mesh.Points[triangle.Points[ends[1]]] - at;
+      const double cotangent = a.dot(b) / std::max(a.cross(b).norm(), 1e-300);
+      const double weight = std::clamp(cotangent, LeastCotangent, MostCotangent);
       for (const int end : { 0, 1 })
       {
-        const Index row = unknown[c[ends[end]]], column = unknown[c[ends[1 - end]]];
-        if (row >= 0)
+        const Index row = unknown[triangle.Points[ends[end]]];
+        const Index column = unknown[triangle.Points[ends[1 - end]]];
+        if (row < 0)
         {
-          entries.emplace_back(row, row, weight);
-          if (column >= 0)
-          {
-            entries.emplace_back(row, column, -weight);
-          }
-          else
-          {
-            right.row(row) += weight * this->Place(triangle, ends[1 - end]).transpose();
-          }
+          continue;
+        }
+        entries.emplace_back(row, row, weight);
+        if (column >= 0)
+        {
+          entries.emplace_back(row, column, -weight);
+        }
+        else
+        {
+          right.row(row) += weight * this->Place(triangle, ends[1 - end]).transpose();
         }
       }
     }

@@ -25,14 +25,13 @@ class LayoutUnfolding
 {
 public:
   /**
-   * Borders go to the edges of the polycube by length, points inside to the means of their
-   * neighbours: one to one. A line's place is the mean length of the borders that end there from
-   * the line before. With `fixed` all corners stay where they are in the layout, otherwise those at
-   * which the polycube is flat are points like others. Points of borders that are edges of the
-   * surface (SharpBorders.h) may move along them only.
+   * Borders go to the edges of the polycube by length, points inside nowhere yet (PlaceInside). A
+   * line's place is the mean length of the borders that end there from the line before. With
+   * `fixed` all corners stay where they are in the layout, otherwise those at which the polycube is
+   * flat are points like others. Points of borders that are edges of the surface (SharpBorders.h)
+   * may move along them only.
    *
-   * Edges within a patch that join two points of its borders are cut in two. Throws
-   * std::runtime_error where rounding has flattened a triangle.
+   * Edges within a patch that join two points of its borders are cut in two.
    */
   LayoutUnfolding(const SurfaceLayout& layout, const Polycube& cubes, bool fixed);
 
@@ -99,6 +98,11 @@ public:
   /// The variables that are a point's own coordinates.
   const std::array<Index, 2>& VariablesOf(Index point) const { return this->Own[point]; }
 
+  /// Places the points of these triangles, which cover the surface, that are inside of patches in
+  /// the middle of their neighbours: one to one but for rounding (W. T. Tutte, How to draw a graph,
+  /// 1963). A sparse Cholesky factorisation.
+  void PlaceInside(const std::vector<ChartTriangle>& triangles);
+
   /// Places lines that are no variables between those that are as they were with the values before.
   void SpaceLines(const std::vector<double>& before);
 
@@ -123,7 +127,6 @@ private:
   void FindTransitions(const SurfaceLayout& layout);
   void PlaceLines(const SurfaceLayout& layout);
   void PlaceBorders(const SurfaceLayout& layout);
-  void PlaceInside();
   Index PivotAt(Index point, Index before, Index after);
 
   std::vector<char> Sharp;               // of each border of the layout

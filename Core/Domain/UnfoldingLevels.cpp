@@ -21,7 +21,7 @@ constexpr double LeastCosine = 0.7;   // between normals before and after
 constexpr double LeastQuality = 0.05; // of triangles in space; 1: equilateral
 constexpr double LeastGain = 0.05;    // of triangles, by a sweep
 constexpr double BetweenLevels = 4.0; // triangles of a level against the next coarser one
-constexpr int LocalRounds = 4;
+constexpr int LocalRounds = 8;
 constexpr double LeastArea = 1e-3; // of a triangle in a hole, by that of the hole
 
 double Cross(const Vector2d& a, const Vector2d& b)
@@ -115,14 +115,16 @@ private:
     return ring;
   }
 
-  bool AreJoined(Index p, Index q) const
+  // Whether a new edge would neither double one nor cut off a part of the patch.
+  bool MayJoin(Index p, Index q) const
   {
-    return std::any_of(this->Around[p].begin(), this->Around[p].end(),
-      [&](Index t)
-      {
-        const Triangle& c = this->Triangles[t].Points;
-        return c[0] == q || c[1] == q || c[2] == q;
-      });
+    return (this->Map.IsInside(p) || this->Map.IsInside(q)) &&
+           std::none_of(this->Around[p].begin(), this->Around[p].end(),
+             [&](Index t)
+             {
+               const Triangle& c = this->Triangles[t].Points;
+               return c[0] == q || c[1] == q || c[2] == q;
+             });
   }
 
   // Fills the hole from the corner that makes the least triangle best, which becomes the first of
@@ -132,19 +134,14 @@ private:
     const std::vector<Index> ring = removal.Ring;
     const std::size_t n = ring.size();
     std::vector<Vector3d> places;
-    std::vector<Vector2d> flat;
     for (std::size_t i = 0; i < n; ++i)
     {
       places.push_back(this->Map.Mesh.Points[ring[i]]);
-      flat.push_back(
-        this->Map.Place(this->Map.InChart({ ring[i], ring[i], ring[i] }, removal.Face), 0));
     }
     Vector3d normal = Vector3d::Zero();
-    double area = 0.0;
     for (std::size_t i = 0; i < n; ++i)
     {
-      normal += places[i].cross(places[(i + 1) % n]);
-      area += Cross(flat[i] - flat[0], flat[(i + 1) % n] - flat[0]);
+      normal += (places[i] - places[0]).cross(places[(i + 1) % n] - places[0]);
     }
     double best = LeastQuality;
     std::size_t from = n;
@@ -158,8 +155,7 @@ private:
         const Vector3d cross = x.cross(y);
         const double squares = x.squaredNorm() + y.squaredNorm() + (y - x).squaredNorm();
         const bool sound = cross.dot(normal) > LeastCosine * cross.norm() * normal.norm() &&
-                           Cross(flat[b] - flat[first], flat[c] - flat[first]) > LeastArea * area &&
-                           (i == 1 || !this->AreJoined(ring[first], ring[b]));
+                           (i == 1 || this->MayJoin(ring[first], ring[b]));
         least = sound ? std::min(least, 2.0 * std::sqrt(3.0) * cross.norm() / squares) : 0.0;
       }
       if (least > best)

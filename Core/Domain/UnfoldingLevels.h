@@ -10,8 +10,8 @@ namespace trivariate
 {
 /**
  * Points that were on no border of the layout are taken away one by one, the hole filled with
- * triangles from one of its corners, so that none is folded in the charts, nor much turned in
- * space. Neighbours stay until the next sweep. All depends on the order of points only.
+ * triangles from one of its corners, so that none is much turned in space. Neighbours stay until
+ * the next sweep. Where points are mapped to does not matter. O(n).
  */
 class UnfoldingLevels
 {
