@@ -29,7 +29,7 @@ bool CornerGuess::IsFor(const SurfaceMesh& mesh, const DomainOptions& options) c
 {
   return this->Mesh.Points == mesh.Points && this->Mesh.Triangles == mesh.Triangles &&
          this->Options.CornerCost == options.CornerCost &&
-         this->Options.MostCubes == options.MostCubes;
+         this->Options.MostCubes == options.MostCubes && this->Options.Relax == options.Relax;
 }
 
 //------------------------------------------------------------------------------

@@ -157,6 +157,7 @@ void Writer::Patches(vtkPolyData* output) const
   const auto parameter = Named<vtkDoubleArray>("Parameter", 3);
   parameter->SetNumberOfTuples(this->NumberOfPoints);
   parameter->Fill(0.0);
+  bool mapped = false;
   points->SetNumberOfPoints(this->NumberOfPoints);
   cornerId->SetNumberOfValues(this->NumberOfPoints);
   cornerId->FillValue(-1);
@@ -172,6 +173,7 @@ void Writer::Patches(vtkPolyData* output) const
     {
       parameter->SetTypedTuple(own.Points[p], layout.Parameters[p].data());
     }
+    mapped |= !layout.Parameters.empty();
     for (std::size_t corner = 0; corner < layout.Corners.size(); ++corner)
     {
       cornerId->SetValue(own.Points[layout.Corners[corner]], own.Corners[corner]);
@@ -219,7 +221,10 @@ void Writer::Patches(vtkPolyData* output) const
   output->SetPoints(points);
   output->SetPolys(cells);
   output->GetPointData()->AddArray(cornerId);
-  output->GetPointData()->AddArray(parameter);
+  if (mapped)
+  {
+    output->GetPointData()->AddArray(parameter);
+  }
   output->GetCellData()->SetScalars(patch); // ParaView's first choice for colors
   vtkDataArray* const arrays[] = { axis, side, owner, labels };
   for (vtkDataArray* array : arrays)

@@ -248,7 +248,10 @@ void AddDomainFromCorners(const LabelledSurface& surface, int segment, const Pol
   }
   SegmentDomain domain = DomainFromCorners(
     piece.Mesh, cubes, picked, execution.Part(0.0, 0.3), snapLimit * box.diagonal().norm());
-  RelaxDomain(domain, execution.Part(0.3, 0.75));
+  if (settings.Options.Relax)
+  {
+    RelaxDomain(domain, execution.Part(0.3, 0.75));
+  }
   DomainBlocks blocks = BlocksOf(domain, settings, execution.Part(0.75, 1.0));
   const auto outer = static_cast<Index>(set.Surfaces.size());
   set.Surfaces.push_back({ std::move(domain), piece.Origins });

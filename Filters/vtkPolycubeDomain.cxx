@@ -277,6 +277,7 @@ void vtkPolycubeDomain::MakeDomains(
   DomainSettings settings;
   settings.Options.CornerCost = this->CornerCost;
   settings.Options.MostCubes = this->MostCubes;
+  settings.Options.Relax = this->RelaxBorders;
   settings.Layered = this->Layered;
   settings.LayerDepth = this->LayerDepth;
   this->Internal->GuessFor(surface, chosen, settings.Options);
@@ -353,6 +354,7 @@ void vtkPolycubeDomain::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SnapLimit: " << this->SnapLimit << "\n";
   os << indent << "CornerCost: " << this->CornerCost << "\n";
   os << indent << "MostCubes: " << this->MostCubes << "\n";
+  os << indent << "RelaxBorders: " << this->RelaxBorders << "\n";
   os << indent << "Layered: " << this->Layered << "\n";
   os << indent << "LayerDepth: " << this->LayerDepth << "\n";
   os << indent << "Controller: " << this->Controller << "\n";

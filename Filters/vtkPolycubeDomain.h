@@ -44,9 +44,9 @@
  *   bounds; PatchSide (int8): 0 at the low end of the block, 1 at the high end; Segment (int32);
  *   BoundaryLabels (int32 x 2), that segment and the one on the other side. A patch that two
  *   segments share has one number, and opposite sides.
- * - points: CornerId (int32), -1 where no corner is; Parameter (double x 3), where the point lies
- *   on the boundary of the polycube, in DomainCoordinates: one to one on each patch, with little
- *   stretch; zero on surfaces whose borders could not be moved to where this map wants them.
+ * - points: CornerId (int32), -1 where no corner is; with RelaxBorders Parameter (double x 3), where
+ *   the point lies on the boundary of the polycube, in DomainCoordinates: one to one on each patch,
+ *   with little stretch; zero on surfaces whose borders were not moved.
  *
  * Port 1, polycube: vtkUnstructuredGrid with a hexahedron for each block.
  * - points: DomainCoordinates (int32 x 3), where the corner lies in the integer polycube (an inner
@@ -203,6 +203,18 @@ public:
 
   ///@{
   /**
+   * Whether borders go to where the map of the surface onto the cubes stretches it least, also where
+   * patches then follow the normals less; corners of the cubes' surface stay, and so do sharp edges.
+   * Block meshes start from this map (Parameter). Borders of contacts and of the outer surface of a
+   * shell are not moved. Default is off.
+   */
+  vtkSetMacro(RelaxBorders, bool);
+  vtkGetMacro(RelaxBorders, bool);
+  vtkBooleanMacro(RelaxBorders, bool);
+  ///@}
+
+  ///@{
+  /**
    * Whether every patch gets a block of its own along the surface. Default is true.
    */
   vtkSetMacro(Layered, bool);
@@ -256,6 +268,7 @@ private:
   double SnapLimit = 0.1;
   double CornerCost = 0.0015;
   int MostCubes = 64;
+  bool RelaxBorders = false;
   bool Layered = true;
   double LayerDepth = 0.0;
   vtkMultiProcessController* Controller = nullptr;

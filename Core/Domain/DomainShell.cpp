@@ -79,10 +79,7 @@ std::optional<SegmentDomain> WithCorners(const SurfaceMesh& surface, const Segme
 {
   try
   {
-    SegmentDomain domain =
-      DomainFromCorners(surface, other.Cubes, corners, execution.Part(0.0, 0.3));
-    RelaxDomain(domain, execution.Part(0.3, 1.0));
-    return domain;
+    return DomainFromCorners(surface, other.Cubes, corners, execution);
   }
   catch (const std::invalid_argument&)
   {

@@ -258,7 +258,7 @@ public:
       throw std::runtime_error("No domain was found for the surface." + this->Handles() + reasons);
     }
     SegmentDomain& domain = *this->Found;
-    if (Relax(domain.Layout, domain.Cubes, false, this->Run.Part(0.85, 1.0)))
+    if (this->Options.Relax && Relax(domain.Layout, domain.Cubes, false, this->Run.Part(0.85, 1.0)))
     {
       this->Measure(domain);
     }

@@ -17,6 +17,9 @@ struct DomainOptions
   double CornerCost = 0.0015;
   /// Domains with more cubes are not looked at.
   Index MostCubes = 64;
+  /// Whether borders go to where the map onto the cubes stretches the surface least
+  /// (RelaxedLayout.h), also where that aligns them less.
+  bool Relax = false;
 };
 
 struct SegmentDomain
@@ -38,7 +41,8 @@ struct SegmentDomain
  * straight between its corners, is inverted. CheckLayout finds nothing in it. Tried are one cube,
  * chains of cubes cut from it where it is long or so bent that one is inverted, and on a surface
  * with flat parts (FlatPolycube.h) their polycube, the only one that may have handles. A surface
- * with too few triangles is cut finer. Borders of the best one are relaxed (RelaxedLayout.h).
+ * with too few triangles is cut finer. Borders of the best one are relaxed if
+ * wanted (RelaxedLayout.h).
  *
  * Throws std::invalid_argument for a surface of several pieces, std::runtime_error with the reasons
  * (and the place of a handle) where no domain can be laid out. O(n log n) beside one sparse

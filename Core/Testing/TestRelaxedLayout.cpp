@@ -4,6 +4,7 @@
 #include "Domain/LayoutCheck.h"
 #include "Domain/LayoutRelaxation.h"
 #include "Domain/RelaxedLayout.h"
+#include "Domain/SegmentDomain.h"
 #include "SegmentSurfaces.h"
 #include "ThreadedExecution.h"
 
@@ -392,5 +393,16 @@ TEST(RelaxedLayout, WorksAroundAHandle)
   {
     EXPECT_LT((layout.Parameters[p] - layout.Points[p]).norm(), 1e-9);
   }
+}
+
+TEST(RelaxedLayout, IsThatOfADomainIfWanted)
+{
+  DomainOptions options;
+  const SurfaceMesh blob = Blob();
+  EXPECT_TRUE(FindDomain(blob, options, Execution()).Layout.Parameters.empty());
+  options.Relax = true;
+  const SegmentDomain domain = FindDomain(blob, options, Execution());
+  ExpectOnPolycube(domain.Layout, domain.Cubes);
+  EXPECT_GT(domain.Alignment, 0.7);
 }
 }

@@ -111,9 +111,7 @@ SegmentDomain PickedFrom(const SegmentDomain& found, const SurfaceMesh& mesh)
 {
   const std::vector<Vector3d> picked(
     found.Places.begin(), found.Places.begin() + found.Cubes.NumberOfCorners);
-  SegmentDomain domain = DomainFromCorners(mesh, found.Cubes, picked, Execution());
-  RelaxDomain(domain, Execution());
-  return domain;
+  return DomainFromCorners(mesh, found.Cubes, picked, Execution());
 }
 
 struct VoxelSolid
@@ -205,7 +203,7 @@ TEST(SegmentDomain, IsTheSameFromPickedCorners)
   }
 }
 
-// Geodesics leave the rim of a cylinder and the outside of a bend, so patches may be others; but they
+// Geodesics leave the rim of a cylinder and the outside of a bend, so patches are others; but they
 // are those of a cube with these corners.
 TEST(SegmentDomain, IsValidFromPickedCorners)
 {
