@@ -11,8 +11,8 @@ namespace trivariate
 /**
  * The layout whose borders are the edges of the polycube: straight lines in the charts, from corner
  * to corner, followed from triangle to triangle. A line that passes close to a point moves the
- * point's place onto itself rather than cut a sliver. `origins`: of the triangles that the layout
- * was made from. With Parameters.
+ * point's place onto itself rather than cut a sliver. `layout`: the one unfolded.
+ * Origins are handed on, Parameters made.
  *
  * Throws std::runtime_error where a line loses its way or a triangle is folded.
  */
