@@ -134,8 +134,8 @@ public:
 
   ///@{
   /**
-   * Most control points of all segments together, though every segment may have 64, and one with a
-   * given domain 64 for each of its blocks. They are
+   * Most control points of all segments together, those that blocks share counted once, though
+   * every segment may have 64, and one with a given domain 64 for each of its blocks. They are
    * shared out by how much the values bend within a segment and by its size. Valid range [64,
    * VTK_INT_MAX]. Default is 50000.
    */
