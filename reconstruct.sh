@@ -20,8 +20,9 @@
 #   --domain WHICH      box, the default: one spline over the whole image; segments: a spline for each
 #                       of the K materials over its bounding box, together still one T-spline that
 #                       stands for every voxel; auto: over the cubes of its domain where that is
-#                       more accurate, or as with box if that is better still; or a file with the cubes and corners of some segments: a
-#                       domain.vtu, or a .json file (Documentation/UserGuide.md)
+#                       more accurate, or as with box if that is better still; or a file with the
+#                       cubes and corners of some segments: a domain.vtu, or a .json file
+#                       (Documentation/UserGuide.md)
 set -euo pipefail
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 export BUILD_DIR=${BUILD_DIR:-$source_dir/build}
