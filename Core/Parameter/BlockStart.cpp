@@ -254,8 +254,10 @@ std::vector<PatchMap> MapPatches(const BlockDomain& domain, const Execution& exe
   std::vector<PatchMap> maps;
   for (std::size_t patch = 0; patch < domain.Patches.size(); ++patch)
   {
-    execution.Check(double(patch) / domain.Patches.size());
-    maps.emplace_back(domain, static_cast<Index>(patch));
+    const double share = 1.0 / double(domain.Patches.size());
+    const Execution part = execution.Part(share * double(patch), share * double(patch + 1));
+    part.Check(0.0);
+    maps.emplace_back(domain, static_cast<Index>(patch), part);
   }
   return maps;
 }

@@ -69,9 +69,12 @@ Index UnknownsOf(const StencilMatrix& matrix)
 Multigrid::Multigrid(const StencilMatrix& matrix, const Execution& execution)
   : Finest(matrix)
 {
-  while (UnknownsOf(this->LevelMatrix(this->Coarse.size())) > FewUnknowns)
+  // Each level is about an eighth of the work of the one before.
+  for (double left = 1.0; UnknownsOf(this->LevelMatrix(this->Coarse.size())) > FewUnknowns;
+       left *= 0.125)
   {
-    this->Coarse.push_back(Coarsen(this->LevelMatrix(this->Coarse.size()), execution));
+    this->Coarse.push_back(Coarsen(
+      this->LevelMatrix(this->Coarse.size()), execution.Part(1.0 - left, 1.0 - 0.125 * left)));
   }
   for (std::size_t level = 0; level <= this->Coarse.size(); ++level)
   {

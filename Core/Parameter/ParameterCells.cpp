@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ParameterCells.h"
 
+#include "StencilMatrix.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,6 +18,7 @@ namespace
 constexpr float LeastShare = 0.03F;
 // Layers of nodes around the segment: the band and one without unknowns.
 constexpr Index Room = 2;
+constexpr Index CheckEvery = 1 << 20; // nodes, less than a second of work
 
 void MarkSegment(const ParameterVoxels& voxels, ParameterCells& cells)
 {
@@ -92,9 +95,9 @@ void MarkBand(ParameterCells& cells)
 }
 
 // The nodes reached from the first one over common cells; how many are not.
-Index CountCutOff(const ParameterCells& cells)
+Index CountCutOff(const ParameterCells& cells, const Execution& execution)
 {
-  std::vector<std::uint8_t> seen(cells.Nodes(), 0);
+  std::vector<std::uint8_t> seen(cells.Nodes(), 0), isCrossed(cells.Nodes(), 0);
   std::vector<Index> front;
   for (Index node = 0; node < cells.Nodes() && front.empty(); ++node)
   {
@@ -104,15 +107,24 @@ Index CountCutOff(const ParameterCells& cells)
       front.push_back(node);
     }
   }
-  while (!front.empty())
+  const Index back = cells.NodeAt(1, 1, 1);
+  for (Index reached = 0; !front.empty(); ++reached)
   {
+    if (reached % CheckEvery == 0)
+    {
+      execution.Check(static_cast<double>(reached) / static_cast<double>(cells.Nodes()));
+    }
     const Index node = front.back();
     front.pop_back();
-    const Index back = cells.NodeAt(1, 1, 1);
     for (int c = 0; c < 8; ++c)
     {
       const Index cell = cells.Corner(node - back, c);
-      for (int d = 0; d < 8 && cells.Cut[cell] != UnusedCell; ++d)
+      if (cells.Cut[cell] == UnusedCell || isCrossed[cell] != 0)
+      {
+        continue;
+      }
+      isCrossed[cell] = 1;
+      for (int d = 0; d < 8; ++d)
       {
         const Index other = cells.Corner(cell, d);
         if (seen[other] == 0)
@@ -214,22 +226,18 @@ void FindCells(const ParameterVoxels& voxels, const ParameterSurface& surface,
   execution.Check(0.2);
   const InsideShares inside(
     places, surface.Triangles, { cells.Size[0] - 1, cells.Size[1], cells.Size[2] });
-  execution.Check(0.4);
   cells.Cut.assign(cells.Nodes(), UnusedCell);
   const Index rows = cells.Size[1] * cells.Size[2];
   std::vector<CutRow> cutRows(rows);
-  execution.ParallelFor(cells.Size[2] - 1,
-    [&](Index begin, Index end)
+  ForEachSlab(cells.Size, cells.Size[2] - 1, execution.Part(0.4, 0.8),
+    [&](Index k)
     {
       std::vector<CellOctants> octants;
-      for (Index k = begin; k < end; ++k)
+      for (Index j = 0; j + 1 < cells.Size[1]; ++j)
       {
-        for (Index j = 0; j + 1 < cells.Size[1]; ++j)
-        {
-          const Index row = j + cells.Size[1] * k;
-          cutRows[row] = CutRowOf(
-            inside, isSampled, row, cells, octants, cells.Cut.data() + cells.Size[0] * row);
-        }
+        const Index row = j + cells.Size[1] * k;
+        cutRows[row] =
+          CutRowOf(inside, isSampled, row, cells, octants, cells.Cut.data() + cells.Size[0] * row);
       }
     });
   execution.Check(0.8);
@@ -253,7 +261,7 @@ void FindCells(const ParameterVoxels& voxels, const ParameterSurface& surface,
     throw std::invalid_argument(message.str());
   }
   MarkBand(cells);
-  if (const Index left = CountCutOff(cells))
+  if (const Index left = CountCutOff(cells, execution.Part(0.9, 1.0)))
   {
     throw std::invalid_argument("The segment is in pieces: " + std::to_string(left) +
                                 " of its voxels do not hang together with the others.");

@@ -103,7 +103,8 @@ void ForEachCell(const ParameterCells& cells, const Execution& execution, const 
 {
   for (Index parity = 0; parity < 2; ++parity)
   {
-    ForEachSlab(cells.Size, (cells.Size[2] - 1 - parity + 1) / 2, execution,
+    ForEachSlab(cells.Size, (cells.Size[2] - 1 - parity + 1) / 2,
+      execution.Part(0.5 * static_cast<double>(parity), 0.5 * static_cast<double>(parity + 1)),
       [&](Index slab)
       {
         const Index begin = cells.NodeAt(0, 0, 2 * slab + parity);
@@ -161,8 +162,9 @@ std::vector<std::int32_t> NumberRows(const ParameterCells& cells, bool uniform)
 }
 
 void AddPenalty(const ParameterCells& cells, const PlaneSamples& samples, double stiffness,
-  const std::vector<std::int32_t>& rowOf, StencilMatrix& matrix)
+  const std::vector<std::int32_t>& rowOf, StencilMatrix& matrix, const Execution& execution)
 {
+  execution.Check(0.0);
   matrix.PlaneDiagonal.assign(samples.Coordinates.size() - 1, 0.0);
   std::vector<StencilMatrix::Link> links;
   for (const PlaneSample& sample : samples.Samples)
@@ -180,7 +182,9 @@ void AddPenalty(const ParameterCells& cells, const PlaneSamples& samples, double
       }
     }
   }
+  execution.Check(0.5);
   matrix.SetLinks(std::move(links));
+  execution.Check(1.0);
 }
 }
 
@@ -191,7 +195,7 @@ TargetField FillTargets(
   TargetField targets(cells.Nodes(), Vector3d::Zero());
   const auto forEachNode = [&](const auto& visit)
   {
-    ForEachSlab(cells.Size, cells.Size[2], execution,
+    ForEachSlab(cells.Size, cells.Size[2], execution.Part(0.0, 0.9),
       [&](Index k)
       {
         for (Index j = 0; j < cells.Size[1]; ++j)
@@ -226,6 +230,7 @@ TargetField FillTargets(
   std::vector<std::uint8_t> filled = cells.Known;
   for (bool more = true; more;)
   {
+    execution.Check(0.9);
     std::vector<Index> layer;
     for (Index node = 0; node < cells.Nodes(); ++node)
     {
@@ -283,7 +288,7 @@ StencilMatrix AssembleMatrix(const ParameterCells& cells, const PlaneSamples& sa
   }
   const std::vector<std::int32_t> rowOf = NumberRows(cells, epsilon == 1.0);
   matrix.SetRows(rowOf);
-  ForEachCell(cells, execution,
+  ForEachCell(cells, execution.Part(0.1, 0.9),
     [&](Index cell)
     {
       if (epsilon == 1.0 && cells.Cut[cell] == WholeCell)
@@ -305,7 +310,7 @@ StencilMatrix AssembleMatrix(const ParameterCells& cells, const PlaneSamples& sa
       }
       AddToRows(cells, cell, sum, rowOf, matrix.Rows);
     });
-  AddPenalty(cells, samples, stiffness, rowOf, matrix);
+  AddPenalty(cells, samples, stiffness, rowOf, matrix, execution.Part(0.9, 1.0));
   return matrix;
 }
 

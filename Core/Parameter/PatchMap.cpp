@@ -3,8 +3,9 @@
 #include "PatchMap.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/IterativeLinearSolvers>
 #include <Eigen/LU>
-#include <Eigen/SparseLU>
+#include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <cmath>
@@ -22,6 +23,28 @@ using Eigen::Vector3d;
 constexpr int MostRounds = 12;
 constexpr double Gain = 0.01;       // the least share by which a round must lower the stretch
 constexpr double LeastArea = 1e-14; // of a triangle in the square
+constexpr double Tolerance = 1e-12; // of the equations
+
+using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+// Incomplete factors that look at the user's abort flag whenever a solver uses them.
+class StoppableFactors : public Eigen::IncompleteLUT<double>
+{
+public:
+  StoppableFactors() { this->setDroptol(1e-4); }
+
+  void RunBy(const Execution& execution) { this->Run = execution; }
+
+  template <typename Given>
+  Eigen::VectorXd solve(const Given& b) const
+  {
+    this->Run.Check(0.0);
+    return IncompleteLUT::solve(b);
+  }
+
+private:
+  Execution Run;
+};
 
 Vector2d SquareCorner(int i)
 {
@@ -52,7 +75,7 @@ double Barycentric(
 }
 
 //------------------------------------------------------------------------------
-PatchMap::PatchMap(const BlockDomain& domain, Index patch)
+PatchMap::PatchMap(const BlockDomain& domain, Index patch, const Execution& execution)
   : Domain(domain)
   , Patch(domain.Patches[patch])
 {
@@ -60,7 +83,7 @@ PatchMap::PatchMap(const BlockDomain& domain, Index patch)
   if (!this->TakeParameters())
   {
     this->MapSides();
-    this->MapInside();
+    this->MapInside(execution);
   }
   this->FillBuckets();
 }
@@ -137,13 +160,14 @@ void PatchMap::MapSides()
   }
 }
 
-void PatchMap::MapInside()
+void PatchMap::MapInside(const Execution& execution)
 {
   std::vector<double> divisors(this->Points.size(), 1.0), stretch;
   double least = std::numeric_limits<double>::infinity();
   for (int round = 0; round < MostRounds; ++round)
   {
-    const std::vector<Vector2d> square = this->Solved(divisors);
+    const std::vector<Vector2d> square = this->Solved(
+      divisors, execution.Part(double(round) / MostRounds, double(round + 1) / MostRounds));
     const double total = this->Stretch(square, stretch);
     if (!(total < (1.0 - Gain) * least))
     {
@@ -196,7 +220,8 @@ double PatchMap::Stretch(const std::vector<Vector2d>& square, std::vector<double
 }
 
 // With each point's weight in the means around it divided.
-std::vector<Vector2d> PatchMap::Solved(const std::vector<double>& divisors) const
+std::vector<Vector2d> PatchMap::Solved(
+  const std::vector<double>& divisors, const Execution& execution) const
 {
   std::vector<Index> unknown(this->Points.size(), -1);
   Index unknowns = 0;
@@ -240,12 +265,21 @@ std::vector<Vector2d> PatchMap::Solved(const std::vector<double>& divisors) cons
       }
     }
   }
-  Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
+  execution.Check(0.1);
+  Matrix matrix(unknowns, unknowns);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SparseLU<Eigen::SparseMatrix<double>> factors(matrix);
-  const Eigen::MatrixX2d solution =
-    factors.info() == Eigen::Success ? Eigen::MatrixX2d(factors.solve(right)) : right;
-  if (factors.info() != Eigen::Success || !solution.allFinite())
+  Eigen::BiCGSTAB<Matrix, StoppableFactors> solver;
+  solver.setTolerance(Tolerance);
+  solver.preconditioner().RunBy(execution.Part(0.5, 0.5));
+  solver.compute(matrix);
+  Eigen::MatrixX2d solution = right;
+  bool isSolved = solver.info() == Eigen::Success;
+  for (int axis = 0; axis < 2 && isSolved; ++axis)
+  {
+    solution.col(axis) = solver.solve(right.col(axis));
+    isSolved = solver.info() == Eigen::Success;
+  }
+  if (!isSolved || !solution.allFinite())
   {
     throw std::runtime_error(
       "A patch of " + std::to_string(this->Points.size()) + " points cannot be made flat.");

@@ -5,6 +5,7 @@
 #define trivariate_PatchMap_h
 
 #include "BlockDomain.h"
+#include "Execution.h"
 
 namespace trivariate
 {
@@ -18,9 +19,9 @@ namespace trivariate
 class PatchMap
 {
 public:
-  /// The domain must outlive the map. Without parameters some sparse factorisations of as many
-  /// unknowns as points.
-  PatchMap(const BlockDomain& domain, Index patch);
+  /// The domain must outlive the map. Without parameters some sparse solves of as many unknowns as
+  /// points.
+  PatchMap(const BlockDomain& domain, Index patch, const Execution& execution);
 
   /// The place on the surface of a point of the square.
   Eigen::Vector3d At(const Eigen::Vector2d& st) const;
@@ -32,8 +33,9 @@ private:
   void Number();
   bool TakeParameters();
   void MapSides();
-  void MapInside();
-  std::vector<Eigen::Vector2d> Solved(const std::vector<double>& divisors) const;
+  void MapInside(const Execution& execution);
+  std::vector<Eigen::Vector2d> Solved(
+    const std::vector<double>& divisors, const Execution& execution) const;
   double Stretch(const std::vector<Eigen::Vector2d>& square, std::vector<double>& ofPoints) const;
   void FillBuckets();
 

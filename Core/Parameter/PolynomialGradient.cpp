@@ -129,7 +129,7 @@ PolynomialGradient::PolynomialGradient(const ParameterCells& cells, const Execut
   constexpr Index batch = 4096; // below a second
   for (Index begin = 0; begin < static_cast<Index>(nodes.size()); begin += batch)
   {
-    execution.Check(0.0);
+    execution.Check(static_cast<double>(begin) / static_cast<double>(nodes.size()));
     execution.ParallelFor(std::min<Index>(batch, static_cast<Index>(nodes.size()) - begin),
       [&](Index first, Index last)
       {

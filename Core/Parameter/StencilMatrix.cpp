@@ -203,7 +203,7 @@ void SubtractLinks(const StencilMatrix& a, const Real* x, Real* y)
 
 //------------------------------------------------------------------------------
 void ForEachSlab(const std::array<Index, 3>& size, Index count, const Execution& execution,
-  const std::function<void(Index)>& body)
+  const std::function<void(Index)>& body, Index atOnce)
 {
   // Threads take longer to start than a few ten thousand nodes to visit.
   const bool small = size[0] * size[1] * size[2] < 30000;
@@ -219,8 +219,13 @@ void ForEachSlab(const std::array<Index, 3>& size, Index count, const Execution&
     range(0, count);
     return;
   }
-  execution.Check(0.0);
-  execution.ParallelFor(count, range);
+  const Index batch = std::max<Index>(2, atOnce / (size[0] * size[1]));
+  for (Index first = 0; first < count; first += batch)
+  {
+    execution.Check(static_cast<double>(first) / static_cast<double>(count));
+    execution.ParallelFor(std::min(batch, count - first),
+      [&range, first](Index begin, Index end) { range(first + begin, first + end); });
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -67,11 +67,12 @@ struct StencilMatrix
 };
 
 /**
- * Runs body for every k in [0, count), on threads where a grid of that size is worth it; then the
- * user's abort flag is looked at before, and the progress reported is where `execution` begins.
+ * Runs body for every k in [0, count), on threads where a grid of that size is worth it; then
+ * progress goes on, and the user's abort flag is looked at, whenever about `atOnce` nodes are done,
+ * which should take less than half a second.
  */
 void ForEachSlab(const std::array<Index, 3>& size, Index count, const Execution& execution,
-  const std::function<void(Index)>& body);
+  const std::function<void(Index)>& body, Index atOnce = 1 << 19);
 
 /// y = A x; or y = b - A x.
 template <typename Real>

@@ -9,6 +9,8 @@ namespace trivariate
 {
 namespace
 {
+constexpr Index NodesAtOnce = 1 << 15; // each may take ten microseconds
+
 // The weight of a coarse node for the fine node `offset` away from it.
 double WeightAt(Index offset)
 {
@@ -81,7 +83,8 @@ void ForEachFine(
 template <typename Visit>
 void ForEachNode(const std::array<Index, 3>& size, const Execution& execution, const Visit& visit)
 {
-  ForEachSlab(size, size[2], execution,
+  ForEachSlab(
+    size, size[2], execution,
     [&](Index k)
     {
       for (Index j = 0; j < size[1]; ++j)
@@ -91,7 +94,8 @@ void ForEachNode(const std::array<Index, 3>& size, const Execution& execution, c
           visit(i, j, k, i + size[0] * (j + size[1] * k));
         }
       }
-    });
+    },
+    NodesAtOnce);
 }
 
 std::vector<std::int32_t> CoarseRows(const StencilMatrix& fine, const StencilMatrix& coarse,
@@ -171,9 +175,9 @@ StencilMatrix Coarsen(const StencilMatrix& fine, const Execution& execution)
     coarse.Common[c] = coarseCommon[13 + (c & 1) + 3 * (c >> 1 & 1) + 9 * (c >> 2)];
   }
 
-  const std::vector<std::int32_t> rows = CoarseRows(fine, coarse, rowOf, execution);
+  const std::vector<std::int32_t> rows = CoarseRows(fine, coarse, rowOf, execution.Part(0.0, 0.1));
   coarse.SetRows(rows);
-  ForEachNode(coarse.Size, execution,
+  ForEachNode(coarse.Size, execution.Part(0.1, 1.0),
     [&](Index i, Index j, Index k, Index node)
     {
       if (rows[node] < 0)

@@ -41,17 +41,19 @@ public:
     std::vector<Index> sampled;
     for (int axis = 0; axis < 3; ++axis)
     {
+      execution.Check(0.1 * axis);
       this->Samples[axis] = SamplePlanes(this->Cells, surface, axis);
       for (const PlaneSample& sample : this->Samples[axis].Samples)
       {
         sampled.push_back(sample.Cell);
       }
     }
-    FindCells(voxels, surface, sampled, this->Cells, execution);
-    if (options.Gradient == ParameterGradient::Polynomial)
+    const bool polynomial = options.Gradient == ParameterGradient::Polynomial;
+    FindCells(voxels, surface, sampled, this->Cells, execution.Part(0.3, polynomial ? 0.5 : 1.0));
+    if (polynomial)
     {
       this->Polynomials =
-        std::make_unique<PolynomialGradient>(this->Cells, execution.Part(1.0, 1.0));
+        std::make_unique<PolynomialGradient>(this->Cells, execution.Part(0.5, 1.0));
     }
     this->Result.Low = this->Cells.Low;
     this->Result.Size = this->Cells.Size;
@@ -61,39 +63,39 @@ public:
 
   void SolveAxis(int axis, const Execution& execution)
   {
-    const Execution start = execution.Part(0.0, 0.0);
     const PlaneSamples& samples = this->Samples[axis];
     const double epsilon = this->Options.Epsilon;
-    const TargetField targets = FillTargets(this->Cells, this->Voxels, axis, start);
-    const auto matrixFor = [&](double energy)
-    { return AssembleMatrix(this->Cells, samples, targets, epsilon, energy, Stiffness, start); };
-    const StencilMatrix matrix = matrixFor(1.0);
-    std::vector<double> b =
-      AssembleRightHandSide(this->Cells, targets, epsilon, matrix.Planes(), start);
+    const TargetField targets =
+      FillTargets(this->Cells, this->Voxels, axis, execution.Part(0.0, 0.02));
+    const auto matrixFor = [&](double energy, const Execution& part)
+    { return AssembleMatrix(this->Cells, samples, targets, epsilon, energy, Stiffness, part); };
+    const StencilMatrix matrix = matrixFor(1.0, execution.Part(0.02, 0.04));
+    std::vector<double> b = AssembleRightHandSide(
+      this->Cells, targets, epsilon, matrix.Planes(), execution.Part(0.04, 0.06));
     LinearOperator times = [&matrix](const double* x, double* y, const Execution& here)
     { Multiply(matrix, x, y, here); };
     StencilMatrix held; // what is left of the trilinear energy beside the polynomials'
     if (this->Polynomials)
     {
-      held = matrixFor(TrilinearShare);
+      held = matrixFor(TrilinearShare, execution.Part(0.06, 0.08));
       for (double& value : b)
       {
         value *= TrilinearShare;
       }
-      this->Polynomials->AddRightHandSide(targets, epsilon, b, start);
+      this->Polynomials->AddRightHandSide(targets, epsilon, b, execution.Part(0.08, 0.1));
       times = [&](const double* x, double* y, const Execution& here)
       {
         Multiply(held, x, y, here);
         this->Polynomials->AddEnergy(targets, epsilon, x, y, here);
       };
     }
-    Multigrid multigrid(matrix, start);
+    Multigrid multigrid(matrix, execution.Part(0.1, 0.2));
     std::vector<double> u(matrix.Length(), 0.0);
     ParameterSolve& record = this->Result.Solves[axis];
     std::vector<double>& lengths = this->Result.Lengths[axis];
     this->Result.Coordinates[axis] = samples.Coordinates;
     const LinearSolve solve = SolveConjugateGradients(
-      times, multigrid, b, this->Options.Tolerance, MostIterations, u, execution.Part(0.1, 1.0));
+      times, multigrid, b, this->Options.Tolerance, MostIterations, u, execution.Part(0.2, 1.0));
     record.Iterations = solve.Iterations;
     record.Residual = solve.Residual;
     lengths.assign(1, 0.0);
@@ -143,7 +145,7 @@ public:
     };
   }
 
-  VoxelParameter Finish()
+  VoxelParameter Finish(const Execution& execution)
   {
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -162,11 +164,17 @@ public:
         }
       }
       const MonotoneMap map(lengths, std::vector<double>(planes.begin(), planes.end()));
-      for (Index node = 0; node < this->Cells.Nodes(); ++node)
-      {
-        double& value = this->Result.Values[3 * node + axis];
-        value = this->Cells.Known[node] == 0 ? 0.0 : map(value);
-      }
+      const std::array<Index, 3>& size = this->Cells.Size;
+      ForEachSlab(size, size[2], execution.Part(axis / 3.0, (axis + 1) / 3.0),
+        [&](Index k)
+        {
+          const Index begin = this->Cells.NodeAt(0, 0, k);
+          for (Index node = begin; node < begin + size[0] * size[1]; ++node)
+          {
+            double& value = this->Result.Values[3 * node + axis];
+            value = this->Cells.Known[node] == 0 ? 0.0 : map(value);
+          }
+        });
     }
     this->Result.Known = std::move(this->Cells.Known);
     return std::move(this->Result);
@@ -216,17 +224,17 @@ VoxelParameter SolveVoxelParameter(const ParameterVoxels& voxels, const Paramete
     throw std::invalid_argument("There cannot be " + std::to_string(options.Rounds) + " rounds.");
   }
   Solver solver(voxels, surface, options, execution.Part(0.0, 0.05));
-  const double share = 0.95 / (3.0 * (options.Rounds + 1));
+  const double share = 0.93 / (3.0 * (options.Rounds + 1));
   for (int step = 0; step < 3 * (options.Rounds + 1); ++step)
   {
     const Execution part = execution.Part(0.05 + share * step, 0.05 + share * (step + 1));
     if (step > 0 && step % 3 == 0)
     {
-      solver.FollowGradients(part);
+      solver.FollowGradients(part.Part(0.0, 0.1));
     }
-    solver.SolveAxis(step % 3, part);
+    solver.SolveAxis(step % 3, part.Part(0.1, 1.0));
   }
-  return solver.Finish();
+  return solver.Finish(execution.Part(0.98, 1.0));
 }
 
 //------------------------------------------------------------------------------

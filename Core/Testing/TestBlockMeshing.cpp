@@ -5,11 +5,11 @@
 #include "Parameter/CornerEnergy.h"
 #include "SegmentSurfaces.h"
 #include "ThreadedExecution.h"
+#include "WatchedExecution.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <ctime>
 
 using namespace trivariate;
 using namespace trivariate_testing;
@@ -240,19 +240,9 @@ TEST(BlockMeshing, StopsWithinASecond)
   const BlockDomain domain = DomainOfSegment(LayeredBlocks(ball, 2.5, Execution()), ball);
   BlockMeshOptions options;
   options.CellLength = 0.7;
-  const auto seconds = [] { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
-  double last = seconds(), longest = 0.0, progress = 0.0;
-  Execution execution;
-  execution.Continue = [&](double done)
-  {
-    longest = std::max(longest, seconds() - last);
-    last = seconds();
-    EXPECT_GE(done, progress);
-    progress = done;
-    return done < 0.214; // in the finest mesh
-  };
-  EXPECT_THROW(MakeBlockMesh(domain, options, execution), Aborted);
-  EXPECT_LT(longest, 1.0);
+  Watch watch;
+  EXPECT_THROW(MakeBlockMesh(domain, options, watch.Until(0.214)), Aborted); // in the finest mesh
+  EXPECT_LT(watch.LongestLook, 1.0);
 }
 
 //------------------------------------------------------------------------------
