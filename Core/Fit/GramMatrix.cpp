@@ -54,115 +54,6 @@ std::vector<float> UnivariateGram(
     });
   return gram;
 }
-
-// The voxels that the supports of two functions share, [Begin, End) in each direction.
-struct VoxelBox
-{
-  std::array<Index, 3> Begin, End;
-
-  VoxelBox(const FunctionTable& table, Index i, Index j)
-  {
-    for (int a = 0; a < 3; ++a)
-    {
-      const SampledFunction& f = table.Factor(i, a).Samples;
-      const SampledFunction& g = table.Factor(j, a).Samples;
-      this->Begin[a] = std::max(f.first, g.first);
-      this->End[a] = std::min(f.first + static_cast<Index>(f.second.size()),
-        g.first + static_cast<Index>(g.second.size()));
-    }
-  }
-
-  Index Count() const
-  {
-    return std::max<Index>(0, this->End[0] - this->Begin[0]) *
-           std::max<Index>(0, this->End[1] - this->Begin[1]) *
-           std::max<Index>(0, this->End[2] - this->Begin[2]);
-  }
-};
-
-// The product of two functions summed voxel by voxel, for pairs that the mask's border crosses.
-double MaskedDot(const VoxelMask& mask, const FunctionTable& table, Index i, Index j)
-{
-  const VoxelBox box(table, i, j);
-  const auto product = [&table, i, j](int a, Index at)
-  {
-    const SampledFunction& f = table.Factor(i, a).Samples;
-    const SampledFunction& g = table.Factor(j, a).Samples;
-    return f.second[at - f.first] * g.second[at - g.first];
-  };
-  std::vector<double> u;
-  for (Index x = box.Begin[0]; x < box.End[0]; ++x)
-  {
-    u.push_back(product(0, x));
-  }
-  double sum = 0.0;
-  for (Index z = box.Begin[2]; z < box.End[2]; ++z)
-  {
-    const double w = product(2, z);
-    for (Index y = box.Begin[1]; y < box.End[1]; ++y)
-    {
-      const std::uint8_t* row = mask.Values + (z * mask.Size[1] + y) * mask.Size[0] + box.Begin[0];
-      double line = 0.0;
-      for (std::size_t x = 0; x < u.size(); ++x)
-      {
-        line += row[x] ? u[x] : 0.0;
-      }
-      sum += w * product(1, y) * line;
-    }
-  }
-  return sum;
-}
-}
-
-//------------------------------------------------------------------------------
-void VoxelMask::Prepare(const Execution& execution)
-{
-  if (!this->Values)
-  {
-    return;
-  }
-  const Index nx = this->Size[0] + 1, ny = this->Size[1] + 1, nz = this->Size[2] + 1;
-  this->Counts.assign(nx * ny * nz, 0);
-  execution.ParallelFor(this->Size[2],
-    [this, nx, ny](Index begin, Index end)
-    {
-      for (Index z = begin; z < end; ++z)
-      {
-        for (Index y = 0; y < this->Size[1]; ++y)
-        {
-          std::int32_t line = 0;
-          for (Index x = 0; x < this->Size[0]; ++x)
-          {
-            line += this->Values[(z * this->Size[1] + y) * this->Size[0] + x] != 0;
-            const Index at = ((z + 1) * ny + y + 1) * nx + x + 1;
-            this->Counts[at] = this->Counts[at - nx] + line;
-          }
-        }
-      }
-    });
-  for (Index z = 1; z < nz; ++z)
-  {
-    for (Index at = z * ny * nx; at < (z + 1) * ny * nx; ++at)
-    {
-      this->Counts[at] += this->Counts[at - ny * nx];
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-Index VoxelMask::CountIn(const std::array<Index, 3>& begin, const std::array<Index, 3>& end) const
-{
-  const Index nx = this->Size[0] + 1, ny = this->Size[1] + 1;
-  Index sum = 0;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    const Index x = corner & 1 ? end[0] : begin[0];
-    const Index y = corner & 2 ? end[1] : begin[1];
-    const Index z = corner & 4 ? end[2] : begin[2];
-    const int low = !(corner & 1) + !(corner & 2) + !(corner & 4);
-    sum += (low & 1 ? -1 : 1) * Index(this->Counts[(z * ny + y) * nx + x]);
-  }
-  return sum;
 }
 
 //------------------------------------------------------------------------------
@@ -183,15 +74,10 @@ GramMatrix::GramMatrix(const TSpline& spline, const FunctionTable& table, const 
            gram[1][table.Id(i, 1) * factors[1] + table.Id(j, 1)] *
            gram[2][table.Id(i, 2) * factors[2] + table.Id(j, 2)];
   };
-  const auto masked = [&separable, &table, &mask](Index i, Index j)
-  {
-    const VoxelBox box(table, i, j);
-    const Index all = box.Count();
-    const Index counted = all > 0 ? mask.CountIn(box.Begin, box.End) : 0;
-    return counted == 0 ? 0.0 : counted == all ? separable(i, j) : MaskedDot(mask, table, i, j);
+  // Without the pairs that the mask's border crosses, which are not separable.
+  const auto entry = [&separable, &table, &mask](Index i, Index j) {
+    return !mask.Values || PartThatCounts(mask, table, i, j) == Part::All ? separable(i, j) : 0.0;
   };
-  const auto entry = [&separable, &masked, &mask](Index i, Index j)
-  { return mask.Values ? masked(i, j) : separable(i, j); };
 
   this->Allocate(n);
   this->RowBegin.assign(n + 1, 0);
@@ -217,6 +103,7 @@ GramMatrix::GramMatrix(const TSpline& spline, const FunctionTable& table, const 
       }
     });
   std::partial_sum(this->RowBegin.begin(), this->RowBegin.end(), this->RowBegin.begin());
+  this->SetCrossedDiagonal(table, mask, execution);
   execution.Check(0.0);
 
   this->Columns.resize(this->RowBegin[n]);
@@ -242,6 +129,8 @@ GramMatrix::GramMatrix(const TSpline& spline, const FunctionTable& table, const 
         }
       }
     });
+  execution.Check(0.0);
+  this->SetCrossedEntries(table, mask, execution);
 }
 
 //------------------------------------------------------------------------------
@@ -287,6 +176,71 @@ void GramMatrix::SetDiagonal(Index i, double value)
 {
   this->Diagonal[i] = value;
   this->Scale[i] = value > 0.0 ? 1.0 / std::sqrt(value) : 0.0;
+}
+
+//------------------------------------------------------------------------------
+// The diagonal's entries that the mask's border crosses.
+void GramMatrix::SetCrossedDiagonal(
+  const FunctionTable& table, const VoxelMask& mask, const Execution& execution)
+{
+  std::vector<FunctionPair> crossed;
+  for (std::int32_t i = 0; mask.Values && i < this->Size(); ++i)
+  {
+    if (PartThatCounts(mask, table, i, i) == Part::Some)
+    {
+      crossed.push_back({ i, i });
+    }
+  }
+  const std::vector<double> products = MaskedProducts(mask, table, crossed, execution);
+  for (std::size_t k = 0; k < crossed.size(); ++k)
+  {
+    this->SetDiagonal(crossed[k][0], products[k]);
+  }
+}
+
+//------------------------------------------------------------------------------
+// The other entries that it crosses, each with its mirror image.
+void GramMatrix::SetCrossedEntries(
+  const FunctionTable& table, const VoxelMask& mask, const Execution& execution)
+{
+  if (!mask.Values)
+  {
+    return;
+  }
+  const Index n = this->Size();
+  const auto all = this->Columns.begin();
+  const Index blocks = (n + BlockSize - 1) / BlockSize;
+  std::vector<std::vector<FunctionPair>> ofBlock(blocks);
+  execution.ParallelFor(blocks,
+    [&](Index firstBlock, Index endBlock)
+    {
+      for (Index i = firstBlock * BlockSize; i < std::min(n, endBlock * BlockSize); ++i)
+      {
+        for (Index at = this->DiagonalAt[i]; at < this->RowBegin[i + 1]; ++at)
+        {
+          if (PartThatCounts(mask, table, i, all[at]) == Part::Some)
+          {
+            ofBlock[i / BlockSize].push_back({ static_cast<std::int32_t>(i), all[at] });
+          }
+        }
+      }
+    });
+  for (const std::vector<FunctionPair>& crossed : ofBlock)
+  {
+    const std::vector<double> products = MaskedProducts(mask, table, crossed, execution);
+    for (std::size_t k = 0; k < crossed.size(); ++k)
+    {
+      const auto [i, j] = crossed[k];
+      const float value = static_cast<float>(products[k] * this->Scale[i] * this->Scale[j]);
+      for (const auto& [row, column] : { std::make_pair(i, j), std::make_pair(j, i) })
+      {
+        this->Values[std::lower_bound(
+                       all + this->RowBegin[row], all + this->RowBegin[row + 1], column) -
+                     all] = value;
+      }
+    }
+    execution.Check(0.0);
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -9,24 +9,10 @@
 #ifndef trivariate_GramMatrix_h
 #define trivariate_GramMatrix_h
 
-#include "FunctionTable.h"
+#include "VoxelMask.h"
 
 namespace trivariate
 {
-/// Which voxels count.
-struct VoxelMask
-{
-  std::array<Index, 3> Size;
-  const std::uint8_t* Values = nullptr; ///< null: all
-
-  /// Voxels that count in all boxes from the origin: (x, y, z) exclusive; (Size + 1)^3 numbers.
-  std::vector<std::int32_t> Counts;
-  void Prepare(const Execution& execution);
-
-  /// Voxels that count in the box from begin to end (exclusive).
-  Index CountIn(const std::array<Index, 3>& begin, const std::array<Index, 3>& end) const;
-};
-
 /**
  * Sparse symmetric matrix of the sums over voxels of B_i B_j. Numbers are kept in single precision:
  * the matrix only turns residuals into corrections, and the residuals are computed without it.
@@ -56,6 +42,10 @@ public:
 private:
   void Allocate(Index n);
   void SetDiagonal(Index i, double value);
+  void SetCrossedDiagonal(
+    const FunctionTable& table, const VoxelMask& mask, const Execution& execution);
+  void SetCrossedEntries(
+    const FunctionTable& table, const VoxelMask& mask, const Execution& execution);
   void FindBlock(Index i, Index n);
 
   /// The sum of Values times x at their columns over the entries [begin, end).

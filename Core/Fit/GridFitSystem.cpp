@@ -60,7 +60,7 @@ GridFitSystem::GridFitSystem(
   , Run(execution)
   , Finest{ axes[0].FinestLevel(), axes[1].FinestLevel(), axes[2].FinestLevel() }
   , Functions(axes)
-  , Voxels{ samples.Size, samples.Mask, {} }
+  , Voxels{ samples.Size, samples.Mask, {}, {}, {} }
 {
   this->Voxels.Prepare(execution);
   this->CountedVoxels = samples.Mask ? this->Voxels.Counts.back() : samples.Count();

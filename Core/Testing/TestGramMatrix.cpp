@@ -27,7 +27,7 @@ struct Problem
     : Size(size)
     , Grid{ DyadicAxis::ForSamples(size[0], rootCells), DyadicAxis::ForSamples(size[1], rootCells),
       DyadicAxis::ForSamples(size[2], rootCells) }
-    , Mask{ size, nullptr, {} }
+    , Mask{ size, nullptr, {}, {}, {} }
   {
     std::array<KnotLine, 3> lines;
     std::array<int, 3> stride;
