@@ -26,6 +26,12 @@
 
 using namespace trivariate;
 
+namespace
+{
+// Of equal volumes beside right angles: less brings no better angles but cells of a third the size.
+constexpr double Evenness = 0.35;
+}
+
 vtkStandardNewMacro(vtkHexRemesh);
 
 //------------------------------------------------------------------------------
@@ -117,6 +123,8 @@ void vtkHexRemesh::Remesh(vtkInformationVector** inputVector, vtkInformationVect
   options.CellLength = this->EdgeLength > 0.0 ? this->EdgeLength : 2.0 * voxel;
   options.Freedom = FreedomOfNodes * voxel;
   options.CellsPerBlock = this->CellsPerBlock;
+  options.LayerCells = this->CellsPerBlock > 0 ? 0.0 : options.CellLength;
+  options.Repair.Evenness = Evenness;
   const double cells = CountCells(SizesOf(domain, options));
   if (cells > static_cast<double>(this->MostCells))
   {

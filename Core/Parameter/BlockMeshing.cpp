@@ -55,6 +55,48 @@ double MeanLength(const BlockDomain& domain, const Sizes& sizes)
   }
   return length / cells;
 }
+
+// The axis across the layer that a block is: it has a patch on one side alone; or -1.
+int AxisOfLayer(const BlockDomain& domain, const BlockPoints& block)
+{
+  int axis = -1, patches = 0;
+  for (int face = 0; face < 6; ++face)
+  {
+    if (domain.PatchOn(FacePoints(block, face / 2, face % 2)) >= 0)
+    {
+      axis = face / 2;
+      ++patches;
+    }
+  }
+  return patches == 1 ? axis : -1;
+}
+
+// The lengths as they are; layers as deep as wanted at the finest level. All together they fill as
+// much as before, or cells would press against the surface.
+std::vector<Eigen::Vector3d> Targets(
+  const BlockDomain& domain, const BlockMesh& mesh, const Sizes& finest, double layerCells)
+{
+  std::vector<Eigen::Vector3d> targets = CellTargets(mesh);
+  double before = 0.0, after = 0.0;
+  for (std::size_t b = 0; b < mesh.Sizes.size(); ++b)
+  {
+    const std::array<int, 3>& n = mesh.Sizes[b];
+    const double cells = double(n[0]) * n[1] * n[2];
+    before += cells * targets[b].prod();
+    const int axis = AxisOfLayer(domain, domain.Blocks[b]);
+    if (axis >= 0)
+    {
+      const double depth = layerCells * finest[b][axis] / n[axis];
+      targets[b][axis] = std::max(targets[b][axis], depth);
+    }
+    after += cells * targets[b].prod();
+  }
+  for (Eigen::Vector3d& lengths : targets)
+  {
+    lengths *= std::cbrt(before / after);
+  }
+  return targets;
+}
 }
 
 //------------------------------------------------------------------------------
@@ -105,7 +147,7 @@ BlockMesh MakeBlockMesh(const BlockDomain& domain, const BlockMeshOptions& optio
     }
     // Each level is about eight times the work of the one before.
     const double end = std::pow(0.125, level);
-    Repair(mesh, sliding, fit, CellTargets(mesh), options.Repair,
+    Repair(mesh, sliding, fit, Targets(domain, mesh, levels[0], options.LayerCells), options.Repair,
       execution.Part(0.1 + 0.9 * end / 8.0, 0.1 + 0.9 * end));
   }
   if (report)

@@ -14,6 +14,7 @@ struct BlockMeshOptions
   int FewestCells = 2;     ///< along an edge of a block
   int CellsPerBlock = 0;   ///< along each edge, whatever its length; 0: CellLength decides
   double Freedom = 0.0;    ///< how far nodes may leave the surface, in space
+  double LayerCells = 0.0; ///< cells of layers are wanted to be this deep at least, in space
   RepairOptions Repair;
 };
 

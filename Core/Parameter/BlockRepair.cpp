@@ -20,30 +20,37 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr int MostHalvings = 8;
-constexpr Index MovedAtOnce = 8192; // nodes, less than a second of work, before the next check
-constexpr double AtEnd = 0.99;      // of the freedom off the surface
-constexpr int AssignEvery = 3;      // sweeps
-constexpr double LateFitting = 0.1; // where folds stay
-constexpr double LongestStep = 1.0; // in wanted lengths
-constexpr double Sharp = 1e-8;      // the regularisation where nothing is inverted
-constexpr double Flat = 0.01;       // a determinant so small is treated as if it were inverted
-constexpr int WholeSweeps = 20;     // before only nodes near inverted cells move,
-constexpr int WholeEvery = 4;       // but for some sweeps
-constexpr int Rings = 3;            // of cells around those
+constexpr Index MovedAtOnce = 8192;      // nodes, less than a second of work, before the next check
+constexpr double AtEnd = 0.99;           // of the freedom off the surface
+constexpr int AssignEvery = 3;           // sweeps
+constexpr double LateFitting = 0.1;      // where folds stay
+constexpr double LongestStep = 1.0;      // in wanted lengths
+constexpr double Sharp = 1e-8;           // the regularisation where nothing is inverted
+constexpr double BluntestAtFirst = 0.01; // regularisation of flat cells, times
+constexpr double Sharpening = 0.93;      // this with each sweep,
+constexpr int Spreads = 3;               // sweeps then
+constexpr int SharpenFor = 100;          // and so often, then from the start
+constexpr double Flat = 0.01;            // a determinant so small is treated as if it were inverted
+constexpr int WholeSweeps = 20;          // before only nodes near inverted cells move,
+constexpr int WholeEvery = 4;            // but for some sweeps
+constexpr int Rings = 3;                 // of cells around those
 
 // By the least determinant around a node: where cells are inverted large enough that the energy
 // pulls them out. It is each node's own, so that one hopeless cell does not blunt it everywhere.
-double Regularisation(double least)
+// Beside flat cells, which push back, an inverted one would come to rest just below zero if
+// `bluntest` did not shrink from sweep to sweep; that it starts anew shakes up what is stuck.
+double Regularisation(double least, double bluntest)
 {
-  return least > Flat ? Sharp : std::sqrt(1e-6 + 0.04 * std::pow(std::min(least, 0.0), 2));
+  return least > Flat ? Sharp : std::hypot(bluntest, 0.2 * std::min(least, 0.0));
 }
 
 class Sweeper
 {
 public:
   Sweeper(BlockMesh& mesh, SlidingNodes& sliding, BoundaryFit& fit,
-    const std::vector<Vector3d>& targets, double fitting)
-    : Fitting(fitting)
+    const std::vector<Vector3d>& targets, const RepairOptions& options)
+    : Fitting(options.Fitting)
+    , Evenness(options.Evenness)
     , Mesh(mesh)
     , Sliding(sliding)
     , Fit(fit)
@@ -55,8 +62,8 @@ public:
   {
   }
 
-  /// One move of each active node; done: what is reported as the share of the work.
-  void Sweep(double done, const Execution& execution);
+  /// One move of each active node, or a spread; done: what is reported as the share of the work.
+  void Sweep(bool spreading, double done, const Execution& execution);
 
   /// Only nodes in some rings around cells that are inverted; or all of them.
   void Activate(bool all);
@@ -67,10 +74,14 @@ public:
   double Energy(double epsilon, const Execution& execution) const;
 
   double Fitting;
+  double Bluntest = BluntestAtFirst;
 
 private:
+  const double Evenness;
+
   void Terms(Index node, std::vector<CornerTerm>& terms) const;
   void Move(Index node, std::vector<CornerTerm>& terms);
+  void Spread(Index node);
 
   BlockMesh& Mesh;
   SlidingNodes& Sliding;
@@ -116,13 +127,14 @@ void Sweeper::Move(Index node, std::vector<CornerTerm>& terms)
   {
     least = std::min(least, term.Determinant);
   }
-  const double epsilon = Regularisation(least);
+  const double epsilon = Regularisation(least, this->Bluntest);
   double energy = 0.0;
   Vector3d gradient = Vector3d::Zero();
   Matrix3d hessian = Matrix3d::Zero();
   for (const CornerTerm& term : terms)
   {
-    const EnergyDerivatives e = CornerDerivatives(term.Trace, term.Determinant, epsilon);
+    const EnergyDerivatives e =
+      CornerDerivatives(term.Trace, term.Determinant, epsilon, this->Evenness);
     const Vector3d &t = term.TraceSlope, &c = term.DeterminantSlope;
     energy += e.Value;
     gradient += e.ByTrace * t + e.ByDeterminant * c;
@@ -163,7 +175,8 @@ void Sweeper::Move(Index node, std::vector<CornerTerm>& terms)
       double there = this->Fitting * fit.At(moved);
       for (const CornerTerm& term : terms)
       {
-        there += CornerEnergy(term.TraceAt(moved), term.DeterminantAt(moved), epsilon);
+        there +=
+          CornerEnergy(term.TraceAt(moved), term.DeterminantAt(moved), epsilon, this->Evenness);
       }
       if (there < energy * (1.0 - 1e-12))
       {
@@ -191,7 +204,26 @@ void Sweeper::Move(Index node, std::vector<CornerTerm>& terms)
   }
 }
 
-void Sweeper::Sweep(double done, const Execution& execution)
+// Nodes that have come together have no slope to part along: to the means of their neighbours.
+void Sweeper::Spread(Index node)
+{
+  Vector3d sum = Vector3d::Zero();
+  double count = 0.0;
+  for (const BlockCells::Use* use = this->Cells.UsesBegin(node); use != this->Cells.UsesEnd(node);
+       ++use)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      sum += this->Mesh.Places[this->Cells.Cells[use->Cell][AcrossAxis(use->Corner, axis)]];
+      count += 1.0;
+    }
+  }
+  SurfaceFoot foot;
+  this->Mesh.Places[node] = this->Sliding.Allowed(node, sum / count, foot);
+  this->Sliding.Step(node, foot);
+}
+
+void Sweeper::Sweep(bool spreading, double done, const Execution& execution)
 {
   for (const std::vector<Index>& nodes : this->Cells.Colours)
   {
@@ -205,7 +237,15 @@ void Sweeper::Sweep(double done, const Execution& execution)
           std::vector<CornerTerm> terms;
           for (Index i = first + begin; i < first + end; ++i)
           {
-            if (this->Active[nodes[i]])
+            if (!this->Active[nodes[i]])
+            {
+              continue;
+            }
+            if (spreading)
+            {
+              this->Spread(nodes[i]);
+            }
+            else
             {
               this->Move(nodes[i], terms);
             }
@@ -272,7 +312,8 @@ double Sweeper::Energy(double epsilon, const Execution& execution) const
         {
           const Matrix3d jacobian = CornerJacobian(
             this->Mesh.Places, this->Cells.Cells[c], corner, this->Targets[this->Cells.BlockOf[c]]);
-          energies[c] += CornerEnergy(jacobian.squaredNorm(), jacobian.determinant(), epsilon);
+          energies[c] +=
+            CornerEnergy(jacobian.squaredNorm(), jacobian.determinant(), epsilon, this->Evenness);
         }
       }
     });
@@ -321,7 +362,7 @@ CellQuality QualityOf(const BlockMesh& mesh, const Execution& execution)
 void Repair(BlockMesh& mesh, SlidingNodes& sliding, BoundaryFit& fit,
   const std::vector<Vector3d>& targets, const RepairOptions& options, const Execution& execution)
 {
-  Sweeper sweeper(mesh, sliding, fit, targets, options.Fitting);
+  Sweeper sweeper(mesh, sliding, fit, targets, options);
   const double all = options.MostUntangling + options.MostSmoothing;
   double energy = std::numeric_limits<double>::infinity();
   for (int sweep = 0, untangling = 0, smoothing = 0; untangling < options.MostUntangling; ++sweep)
@@ -338,6 +379,7 @@ void Repair(BlockMesh& mesh, SlidingNodes& sliding, BoundaryFit& fit,
       const bool late = untangling > options.MostUntangling / 3;
       sweeper.Fitting = late ? LateFitting * options.Fitting : options.Fitting;
       sweeper.Activate(untangling < WholeSweeps || (!late && untangling % WholeEvery == 0));
+      sweeper.Bluntest = BluntestAtFirst * std::pow(Sharpening, untangling % SharpenFor);
       ++untangling;
     }
     else
@@ -353,7 +395,8 @@ void Repair(BlockMesh& mesh, SlidingNodes& sliding, BoundaryFit& fit,
       energy = now;
       ++smoothing;
     }
-    sweeper.Sweep(done, execution);
+    const int since = untangling % SharpenFor;
+    sweeper.Sweep(least <= 0.0 && untangling >= SharpenFor && since < Spreads, done, execution);
   }
 }
 }

@@ -11,9 +11,10 @@ namespace trivariate
 {
 struct RepairOptions
 {
-  int MostUntangling = 300; ///< sweeps over all nodes as long as cells are inverted
+  int MostUntangling = 400; ///< sweeps over all nodes as long as cells are inverted
   int MostSmoothing = 40;   ///< sweeps afterwards
   double Fitting = 1000.0;  ///< the weight of BoundaryFit
+  double Evenness = 1.0;    ///< the weight of equal volumes beside that of right angles
   double Settled = 1e-3; ///< smoothing ends when a sweep lowers the energy by less than this share
 };
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * The foldover-free energy at the corner of a hexahedron, as a function of one of its nodes:
- *   E(J) = tr(J^T J) / chi(D)^(2/3) + (1 + D^2) / chi(D),   D = det J,
+ *   E(J) = tr(J^T J) / chi(D)^(2/3) + evenness (1 + D^2) / chi(D),   D = det J,
  * J from a box of the wanted lengths to the corner's three edges: the shape and the size. chi is D
  * made positive: (D + sqrt(epsilon^2 + D^2)) / 2 (V. Garanzha et al., Foldover-free maps in 50
  * lines of code, 2021).
@@ -91,26 +91,28 @@ struct EnergyDerivatives
   double Value, ByTrace, ByDeterminant, ByBoth, ByDeterminantTwice;
 };
 
-inline double CornerEnergy(double trace, double d, double epsilon)
+inline double CornerEnergy(double trace, double d, double epsilon, double evenness)
 {
   const double root = std::sqrt(epsilon * epsilon + d * d);
   const double chi = d > 0.0 ? 0.5 * (d + root) : 0.5 * epsilon * epsilon / (root - d);
   const double cubic = std::cbrt(chi);
-  return trace / (cubic * cubic) + (1.0 + d * d) / chi;
+  return trace / (cubic * cubic) + evenness * (1.0 + d * d) / chi;
 }
 
-inline EnergyDerivatives CornerDerivatives(double trace, double d, double epsilon)
+inline EnergyDerivatives CornerDerivatives(double trace, double d, double epsilon, double evenness)
 {
   const double root = std::sqrt(epsilon * epsilon + d * d);
   const double chi = d > 0.0 ? 0.5 * (d + root) : 0.5 * epsilon * epsilon / (root - d);
   const double slope = chi / root; // of chi
   const double curve = 0.5 * epsilon * epsilon / (root * root * root);
-  const double cubic = std::cbrt(chi), shape = 1.0 / (cubic * cubic), size = 1.0 + d * d;
-  const double ratio = slope / chi;
-  return { trace * shape + size / chi, shape,
-    -2.0 / 3.0 * trace * shape * ratio + (2.0 * d - size * ratio) / chi, -2.0 / 3.0 * shape * ratio,
-    trace * shape * (10.0 / 9.0 * ratio * ratio - 2.0 / 3.0 * curve / chi) +
-      (2.0 - 4.0 * d * ratio - size * curve / chi + 2.0 * size * ratio * ratio) / chi };
+  const double cubic = std::cbrt(chi), shape = 1.0 / (cubic * cubic);
+  const double size = 1.0 + d * d, ratio = slope / chi;
+  const double sizeSlope = (2.0 * d - size * ratio) / chi;
+  const double sizeCurve =
+    (2.0 - 4.0 * d * ratio - size * curve / chi + 2.0 * size * ratio * ratio) / chi;
+  return { trace * shape + evenness * size / chi, shape,
+    -2.0 / 3.0 * trace * shape * ratio + evenness * sizeSlope, -2.0 / 3.0 * shape * ratio,
+    trace * shape * (10.0 / 9.0 * ratio * ratio - 2.0 / 3.0 * curve / chi) + evenness * sizeCurve };
 }
 }
 

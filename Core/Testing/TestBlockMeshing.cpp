@@ -123,8 +123,9 @@ TEST(CornerEnergy, HasTheDerivativesOfItsValue)
         continue; // almost infinite there
       }
       const double trace = 3.4;
-      const auto at = [&](double t, double x) { return CornerEnergy(trace + t, det + x, epsilon); };
-      const EnergyDerivatives e = CornerDerivatives(trace, det, epsilon);
+      const auto at = [&](double t, double x)
+      { return CornerEnergy(trace + t, det + x, epsilon, 0.7); };
+      const EnergyDerivatives e = CornerDerivatives(trace, det, epsilon, 0.7);
       EXPECT_DOUBLE_EQ(e.Value, at(0, 0));
       const double scale = 1.0 + std::abs(e.ByDeterminantTwice);
       EXPECT_NEAR(e.ByTrace, (at(h, 0) - at(-h, 0)) / (2 * h), 1e-5 * scale);
@@ -230,6 +231,40 @@ TEST(BlockMeshing, CoversABump)
   const BlockMesh mesh = MakeBlockMesh(domain, options, Execution());
   ExpectSound(domain, mesh, VolumeOf(surface), 0.5, 0.005);
   EXPECT_LT(FarthestOf(domain, mesh), 0.75); // half a cell
+}
+
+TEST(BlockMeshing, HasRightAnglesWhereLayersAreAsDeepAsCellsAreLong)
+{
+  const SurfaceMesh surface =
+    Moved(Icosphere(5), [](const Vector3d& p) { return Vector3d(10.0 * p); });
+  const SegmentDomain ball = FindDomain(surface, DomainOptions(), Execution());
+  const BlockDomain domain = DomainOfSegment(LayeredBlocks(ball, 1.5, Execution()), ball);
+  BlockMeshOptions options;
+  options.CellLength = 1.5;
+  options.Freedom = 0.5;
+  BlockMeshReport asTheyAre, deep;
+  MakeBlockMesh(domain, options, Execution(), &asTheyAre);
+  options.LayerCells = options.CellLength;
+  options.Repair.Evenness = 0.35;
+  const BlockMesh mesh = MakeBlockMesh(domain, options, Execution(), &deep);
+  ExpectSound(domain, mesh, VolumeOf(surface), 0.5, 0.005);
+  EXPECT_GT(deep.End.MeanJacobian, 0.93);
+  EXPECT_GT(deep.End.MeanJacobian, asTheyAre.End.MeanJacobian + 0.02);
+  EXPECT_GT(deep.End.LeastJacobian, 0.65); // where three blocks meet, at best sin 120 degrees
+
+  // The blocks after the core are layers, of two cells.
+  for (std::size_t b = 1; b < mesh.Sizes.size(); ++b)
+  {
+    const int axis = static_cast<int>(b - 1) / 2;
+    ASSERT_EQ(mesh.Sizes[b][axis], 2);
+    double depth = 0.0;
+    const std::vector<Index> low = mesh.FaceNodes(b, axis, 0), high = mesh.FaceNodes(b, axis, 1);
+    for (std::size_t i = 0; i < low.size(); ++i)
+    {
+      depth += (mesh.Places[high[i]] - mesh.Places[low[i]]).norm() / low.size();
+    }
+    EXPECT_NEAR(depth, 3.0, 0.6);
+  }
 }
 
 TEST(BlockMeshing, StopsWithinASecond)

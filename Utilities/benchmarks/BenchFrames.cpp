@@ -2,19 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Frames of a bar that fills its grid and turns by a radian, levels and start included; labels: the
-// sides name their axes, else any direction may be the normal. FramesOnThreads takes one and two
-// threads in turn, so that other work on the machine meets both; "times_one_thread" compares the
-// fastest of each by the clock on the wall.
+// sides name their axes, else any direction may be the normal.
 #include "BenchmarkRun.h"
 #include "Field/SegmentField.h"
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
-#include <limits>
 
 using namespace trivariate;
 
@@ -76,19 +71,7 @@ void Frames(benchmark::State& state)
 void FramesOnThreads(benchmark::State& state)
 {
   const FilledBar bar(state.range(0), state.range(1) != 0);
-  std::array<double, 2> fastest;
-  fastest.fill(std::numeric_limits<double>::max());
-  for (auto _ : state)
-  {
-    for (int threads = 1; threads <= 2; ++threads)
-    {
-      const auto start = std::chrono::steady_clock::now();
-      bar.Sweeps(threads);
-      const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-      fastest[threads - 1] = std::min(fastest[threads - 1], seconds.count());
-    }
-  }
-  state.counters["times_one_thread"] = fastest[0] / fastest[1];
+  CompareThreads(state, [&bar](int threads) { bar.Sweeps(threads); });
 }
 }
 

@@ -3,8 +3,8 @@
 //
 // One parameter of a box that fills its grid, with frames that turn: conjugate gradients with
 // multigrid beside Eigen's with the diagonal and with incomplete Cholesky factors, on one thread
-// where not said otherwise, to a residual of 1e-6. And a whole parameterization, trilinear and with
-// polynomials.
+// where not said otherwise, to a residual of 1e-6. And a whole parameterization, all that
+// SolveVoxelParameter does: trilinear and with polynomials, on two threads and on one.
 #include "BenchmarkRun.h"
 #include "Parameter/Multigrid.h"
 #include "Parameter/ParameterSystem.h"
@@ -163,6 +163,13 @@ void SolveMultigrid(benchmark::State& state)
   state.counters["megabytes"] = memory.Bytes() * 1e-6;
 }
 
+void ParametersOnThreads(benchmark::State& state)
+{
+  const FilledBox box(state.range(0));
+  CompareThreads(state, [&box](int threads)
+    { SolveVoxelParameter(box.Voxels, box.Surface, ParameterOptions(), OnThreads(threads)); });
+}
+
 template <typename Preconditioner>
 void SolveEigen(benchmark::State& state)
 {
@@ -209,6 +216,11 @@ BENCHMARK(SolveMultigrid)
   ->Unit(benchmark::kMillisecond)
   ->MeasureProcessCPUTime()
   ->UseRealTime();
+BENCHMARK(ParametersOnThreads)
+  ->ArgName("voxels")
+  ->Arg(128)
+  ->Unit(benchmark::kMillisecond)
+  ->Iterations(5);
 BENCHMARK_TEMPLATE(SolveEigen, Eigen::DiagonalPreconditioner<double>)
   ->ArgName("voxels")
   ->Arg(64)

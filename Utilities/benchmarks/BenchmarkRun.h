@@ -6,9 +6,14 @@
 
 #include "Execution.h"
 
+#include <benchmark/benchmark.h>
+
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <chrono>
 #include <fstream>
+#include <limits>
 #include <string>
 #include <thread>
 #include <vector>
@@ -49,6 +54,28 @@ inline trivariate::Execution OnThreads(int threads)
     }
   };
   return execution;
+}
+
+/**
+ * Measures work(1) and work(2), on so many threads, in turn, so that other work on the machine
+ * meets both; "times_one_thread" compares the fastest of each by the clock on the wall.
+ */
+template <typename Work>
+void CompareThreads(benchmark::State& state, const Work& work)
+{
+  std::array<double, 2> fastest;
+  fastest.fill(std::numeric_limits<double>::max());
+  for (auto _ : state)
+  {
+    for (int threads = 1; threads <= 2; ++threads)
+    {
+      const auto start = std::chrono::steady_clock::now();
+      work(threads);
+      const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+      fastest[threads - 1] = std::min(fastest[threads - 1], seconds.count());
+    }
+  }
+  state.counters["times_one_thread"] = fastest[0] / fastest[1];
 }
 
 /// The most memory that this process has had since the construction, above what it had then; by
