@@ -12,8 +12,8 @@ namespace trivariate
 struct DomainOptions
 {
   CubeChartOptions Charts;
-  /// How much alignment (see SegmentDomain) one more corner must bring. 0: as many cubes as align
-  /// best; 1: one cube wherever one will do.
+  /// How much one more corner must bring, in alignment (see SegmentDomain) less twice the stretch
+  /// (LayoutStretch.h). 0: as many cubes as are best; 1: one cube wherever one will do.
   double CornerCost = 0.0015;
   /// Domains with more cubes are not looked at.
   Index MostCubes = 64;
@@ -37,12 +37,15 @@ struct SegmentDomain
 };
 
 /**
- * The domain with the largest alignment less the cost of its corners, and less 0.05 where a cube,
- * straight between its corners, is inverted. CheckLayout finds nothing in it. Tried are one cube,
- * chains of cubes cut from it where it is long or so bent that one is inverted, and on a surface
- * with flat parts (FlatPolycube.h) their polycube, the only one that may have handles. A surface
- * with too few triangles is cut finer. Borders of the best one are relaxed if
- * wanted (RelaxedLayout.h).
+ * The domain with the largest alignment less twice the stretch, the cost of its corners, and 0.05
+ * where a cube, straight between its corners, is inverted. CheckLayout finds nothing in it. Tried
+ * are one cube, chains of cubes cut from it where it is long or so bent that one is inverted,
+ * polycubes that fill the solid about as well as so few cubes can (CoarsePolycube.h), and on a
+ * surface with flat parts (FlatPolycube.h) their polycube, the only one that may have handles.
+ *
+ * Stretch is measured on a surface of few triangles; only the best is laid out on the surface
+ * itself. A surface with too few triangles is cut finer. Borders of the best one are relaxed
+ * if wanted (RelaxedLayout.h).
  *
  * Throws std::invalid_argument for a surface of several pieces, std::runtime_error with the reasons
  * (and the place of a handle) where no domain can be laid out. O(n log n) beside one sparse
