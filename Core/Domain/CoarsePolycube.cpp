@@ -14,10 +14,10 @@ namespace
 {
 using Eigen::Vector3d;
 
-constexpr int GridCells = 96; // along the longest axis
+constexpr int GridCells = 64; // along the longest axis
 constexpr int MostSlabs = 8;  // along the longest axis
 constexpr int LeastSlabs = 4; // along the others
-constexpr int LeastWidth = 3; // of a slab, in cells of the grid
+constexpr int LeastWidth = 2; // of a slab, in cells of the grid
 constexpr int MostRounds = 20;
 
 // Planes[axis]: 0, those of the lattice, the end of the grid. Cells in the first and last slabs,

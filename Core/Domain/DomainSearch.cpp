@@ -29,8 +29,10 @@ constexpr int MostRefinement = 2;
 constexpr Index EnoughTriangles = 20000; // six charts need no more
 constexpr Index FewTriangles = 3000;     // enough to tell how much a surface is stretched
 constexpr double StretchCost = 2.0;      // in alignment
+constexpr double LeastStretch = 0.01;    // that can be had of more cubes
 constexpr double UnsoundCost = 0.05;     // in alignment, of cubes inverted between their corners
 constexpr Index MostForBends = 8;        // cubes
+constexpr Index LeastPerFace = 100;      // triangles of a surface, lest its roughness gets cubes
 constexpr std::size_t MostLaidOut = 3;   // coarse polycubes
 constexpr int MostWorse = 3;             // polycubes in a row, each with more corners
 constexpr double DistanceCost = 5.0;     // in the stretch of a sheet laid over the surface
@@ -182,6 +184,25 @@ bool DomainSearch::IsWorthwhile(Index corners) const
 }
 
 //------------------------------------------------------------------------------
+// Whether the best domain would be bettered by one with this many corners, aligned like it and
+// hardly stretched.
+bool DomainSearch::IsWorthLessStretch(Index corners) const
+{
+  return this->Found.empty() ||
+         this->Value(this->BestAlignment, LeastStretch, corners, true) > this->MostValue;
+}
+
+//------------------------------------------------------------------------------
+void DomainSearch::Note(double value, double alignment)
+{
+  if (value > this->MostValue)
+  {
+    this->MostValue = value;
+    this->BestAlignment = alignment;
+  }
+}
+
+//------------------------------------------------------------------------------
 // One that is laid out on the surface already.
 void DomainSearch::Offer(SegmentDomain domain)
 {
@@ -196,7 +217,7 @@ void DomainSearch::Offer(SegmentDomain domain)
     });
   const double value =
     this->Value(domain.Alignment, stretch, domain.Cubes.NumberOfCorners, IsSound(domain));
-  this->MostValue = std::max(this->MostValue, value);
+  this->Note(value, domain.Alignment);
   const Polycube cubes = domain.Cubes;
   this->Found.push_back(
     { value, std::make_unique<SegmentDomain>(std::move(domain)), cubes, corners, true });
@@ -209,8 +230,8 @@ void DomainSearch::OfferCorners(const Polycube& cubes, const std::vector<Vector3
   const SegmentDomain small = DomainFromCorners(*this->Small, cubes, corners, this->Run);
   const double value = this->Value(small.Alignment, RelaxedStretch(small.Layout, cubes, this->Run),
     cubes.NumberOfCorners, IsSound(small));
-  this->MostValue = std::max(this->MostValue, value);
-  this->Found.push_back({ value, nullptr, cubes, CornersOf(small), false });
+  this->Note(value, small.Alignment);
+  this->Found.push_back({ value, nullptr, cubes, corners, false });
 }
 
 //------------------------------------------------------------------------------
@@ -258,6 +279,10 @@ void DomainSearch::TryFlatPolycube()
 void DomainSearch::TryCoarsePolycubes()
 {
   std::vector<Candidate> fitted;
+  if (!this->IsWorthLessStretch(8))
+  {
+    return;
+  }
   for (const Matrix3d& frame : FramesOf(*this->Small))
   {
     const PolycubeFitter fitter(*this->Small, frame);
@@ -266,7 +291,9 @@ void DomainSearch::TryCoarsePolycubes()
     for (const CoarsePolycube& coarse :
       FindCoarsePolycubes(*this->Small, frame, this->Options.MostCubes, this->Run.Part(0.6, 0.6)))
     {
-      if (worse == MostWorse || !this->IsWorthwhile(coarse.Cubes.NumberOfCorners))
+      const Index faces = static_cast<Index>(coarse.Cubes.Faces.size());
+      if (worse == MostWorse || faces * LeastPerFace > this->Mesh.NumberOfTriangles() ||
+          !this->IsWorthLessStretch(coarse.Cubes.NumberOfCorners))
       {
         break;
       }
@@ -284,7 +311,7 @@ void DomainSearch::TryCoarsePolycubes()
   for (std::size_t i = 0; i < std::min(MostLaidOut, fitted.size()); ++i)
   {
     this->Run.Check(0.65 + 0.15 * double(i) / MostLaidOut);
-    if (this->IsWorthwhile(fitted[i].Cubes.NumberOfCorners))
+    if (this->IsWorthLessStretch(fitted[i].Cubes.NumberOfCorners))
     {
       this->Try([&]() { this->OfferCorners(fitted[i].Cubes, fitted[i].Corners); });
     }

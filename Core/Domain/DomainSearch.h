@@ -33,6 +33,8 @@ private:
   void OfferCorners(const Polycube& cubes, const std::vector<Eigen::Vector3d>& corners);
   double Value(double alignment, double stretch, Index corners, bool sound) const;
   bool IsWorthwhile(Index corners) const;
+  bool IsWorthLessStretch(Index corners) const;
+  void Note(double value, double alignment);
   std::string Handles() const;
 
   const SurfaceMesh& Mesh;
@@ -43,6 +45,7 @@ private:
   std::unique_ptr<ChartDomain> Charts;
   std::vector<Candidate> Found;
   double MostValue;
+  double BestAlignment = 1.0; // of the domain with that value
   std::string Reasons;
 };
 }

@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 
 constexpr double LeastCosine = 0.1; // of normals that face a side
 constexpr Index MostSamples = 1500; // of the surface
-constexpr Index WantedNodes = 400;
+constexpr Index WantedNodes = 300;
 constexpr int MostPerEdge = 8; // parts of an edge of the polycube
 constexpr int LeastPerEdge = 3;
 constexpr int Rounds = 16;

@@ -17,7 +17,7 @@ struct PolycubeFit
 {
   std::vector<Eigen::Vector3d> Corners; ///< of the polycube: near the surface
   /// Area-weighted mean over the sheet of the symmetric stretch of its map from the polycube with
-  /// the best lengths of its slabs, (s^2 + t^2 + 1/s^2 + 1/t^2) / 4 - 1 for singular values s, t.
+  /// the mean lengths of its slabs, (s^2 + t^2 + 1/s^2 + 1/t^2) / 4 - 1 for singular values s, t.
   double Stretch;
   /// Root of the mean square distance of the surface from the sheet, in the third root of the
   /// volume.

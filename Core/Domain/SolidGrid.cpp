@@ -13,8 +13,7 @@ namespace
 {
 using Eigen::Vector3d;
 
-// Planes of symmetry pass between the middles of cells, not through them.
-constexpr double Margin = 0.013; // of a cell
+constexpr double Margin = 0.25; // of a cell, by which the grid may be shorter than the surface
 constexpr float OpenWeight = 0.5f, CleftWeight = 3.0f;
 
 // Twice the signed area of a, b and a place in the plane of the first two coordinates, the same but
@@ -37,11 +36,11 @@ SolidGrid::SolidGrid(const SurfaceMesh& mesh, const Eigen::Matrix3d& frame, int 
   {
     box.extend(frame * point);
   }
-  this->Width = box.sizes().maxCoeff() / (cells - 2.0 * Margin);
+  this->Width = box.sizes().maxCoeff() / cells;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const double wanted = box.sizes()[axis] / this->Width + 2.0 * Margin;
-    this->Cells[axis] = std::max(1, static_cast<int>(std::ceil(wanted - 1e-9)));
+    const double wanted = box.sizes()[axis] / this->Width - Margin;
+    this->Cells[axis] = std::max(1, static_cast<int>(std::ceil(wanted)));
     this->Low[axis] = box.center()[axis] - 0.5 * this->Width * this->Cells[axis];
   }
   const std::vector<char> inside = this->FindInside(mesh);
