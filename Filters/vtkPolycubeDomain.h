@@ -186,7 +186,7 @@ public:
   /**
    * In automatic mode, how much better one more corner must make the domain. Its value is the
    * alignment (the area-weighted mean of the cosine between normals and the directions of the
-   * patches) less twice the stretch of the surface on the polycube: x / (1 + x), where x is the
+   * patches) less 1.5 times the stretch of the surface on the polycube: x / (1 + x), where x is the
    * mean of (s^2 + 1/s^2 + t^2 + 1/t^2) / 4 - 1 over the surface, s and t the singular values of
    * its map, 0 for an isometry. 0: as many cubes as are best; 1: one cube wherever one will do.
    * Valid range [0, 1]. Default is 0.0015.

@@ -28,7 +28,7 @@ using Eigen::Vector3d;
 constexpr int MostRefinement = 2;
 constexpr Index EnoughTriangles = 20000; // six charts need no more
 constexpr Index FewTriangles = 3000;     // enough to tell how much a surface is stretched
-constexpr double StretchCost = 2.0;      // in alignment
+constexpr double StretchCost = 1.5;      // in alignment
 constexpr double LeastStretch = 0.01;    // that can be had of more cubes
 constexpr double UnsoundCost = 0.05;     // in alignment, of cubes inverted between their corners
 constexpr Index MostForBends = 8;        // cubes
@@ -279,7 +279,8 @@ void DomainSearch::TryFlatPolycube()
 void DomainSearch::TryCoarsePolycubes()
 {
   std::vector<Candidate> fitted;
-  if (!this->IsWorthLessStretch(8))
+  // A bent cube is stretched evenly along its bend; a lattice does not follow that.
+  if ((this->Charts && this->Charts->IsBent()) || !this->IsWorthLessStretch(8))
   {
     return;
   }

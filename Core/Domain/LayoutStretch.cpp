@@ -8,11 +8,6 @@
 
 namespace trivariate
 {
-namespace
-{
-constexpr int Rounds = 20;
-}
-
 //------------------------------------------------------------------------------
 double RelaxedStretch(
   const SurfaceLayout& layout, const Polycube& cubes, const Execution& execution)
@@ -20,9 +15,7 @@ double RelaxedStretch(
   try
   {
     LayoutUnfolding unfolding(layout, cubes, false);
-    RelaxationOptions options;
-    options.MostRounds = Rounds;
-    return 1.0 - 1.0 / RelaxUnfolding(unfolding, options, execution).After;
+    return 1.0 - 1.0 / RelaxUnfolding(unfolding, RelaxationOptions(), execution).After;
   }
   catch (const std::runtime_error&)
   {

@@ -10,7 +10,7 @@
 namespace trivariate
 {
 /**
- * x / (1 + x) where 1 + x is the energy that some rounds of RelaxUnfolding leave (s and t as there:
+ * x / (1 + x) where 1 + x is the energy that RelaxUnfolding leaves (s and t as there:
  * x is the mean of (s^2 + 1/s^2 + t^2 + 1/t^2) / 4 - 1): 0 for an isometry, 1 where none was found.
  * O(n^1.5) a round.
  */

@@ -12,8 +12,8 @@ namespace trivariate
 struct DomainOptions
 {
   CubeChartOptions Charts;
-  /// How much one more corner must bring, in alignment (see SegmentDomain) less twice the stretch
-  /// (LayoutStretch.h). 0: as many cubes as are best; 1: one cube wherever one will do.
+  /// How much one more corner must bring, in alignment (see SegmentDomain) less 1.5 times the
+  /// stretch (LayoutStretch.h). 0: as many cubes as are best; 1: one cube wherever one will do.
   double CornerCost = 0.0015;
   /// Domains with more cubes are not looked at.
   Index MostCubes = 64;
@@ -37,7 +37,7 @@ struct SegmentDomain
 };
 
 /**
- * The domain with the largest alignment less twice the stretch, the cost of its corners, and 0.05
+ * The domain with the largest alignment less 1.5 times the stretch, the cost of its corners, and 0.05
  * where a cube, straight between its corners, is inverted. CheckLayout finds nothing in it. Tried
  * are one cube, chains of cubes cut from it where it is long or so bent that one is inverted,
  * polycubes that fill the solid about as well as so few cubes can (CoarsePolycube.h), and on a
