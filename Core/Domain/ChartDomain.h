@@ -26,9 +26,6 @@ public:
   /// where those of the charts do, each cube's as a whole.
   void Measure(SegmentDomain& domain) const { this->Finish(domain, this->Level); }
 
-  /// Whether the directions turn along the surface: a bent cube follows it.
-  bool IsBent() const { return this->Charts.Frames.size() > 1; }
-
   /// How long it is along that axis against the other two.
   double Length() const { return this->Slenderness; }
 

@@ -27,13 +27,16 @@ using Eigen::Vector3d;
 
 constexpr int MostRefinement = 2;
 constexpr Index EnoughTriangles = 20000; // six charts need no more
-constexpr Index FewTriangles = 3000;     // enough to tell how much a surface is stretched
+constexpr Index FewTriangles = 2000;     // enough to tell how much a surface is stretched
 constexpr double StretchCost = 1.5;      // in alignment
 constexpr double LeastStretch = 0.01;    // that can be had of more cubes
 constexpr double UnsoundCost = 0.05;     // in alignment, of cubes inverted between their corners
+constexpr double CoarseMargin = 0.03;    // so much better must a coarse polycube be: no cubes for
+                                         // what is only rough
 constexpr Index MostForBends = 8;        // cubes
-constexpr Index LeastPerFace = 100;      // triangles of a surface, lest its roughness gets cubes
-constexpr std::size_t MostLaidOut = 3;   // coarse polycubes
+constexpr Index LeastCoarse = 12;        // corners of a polycube of more than one cube
+constexpr Index LeastPerFace = 100;      // triangles of the surface
+constexpr std::size_t MostLaidOut = 2;   // coarse polycubes
 constexpr int MostWorse = 3;             // polycubes in a row, each with more corners
 constexpr double DistanceCost = 5.0;     // in the stretch of a sheet laid over the surface
 
@@ -68,10 +71,12 @@ std::array<Matrix3d, 2> FramesOf(const SurfaceMesh& mesh)
 // Laid out on the surface, or corners from which it can be.
 struct DomainSearch::Candidate
 {
-  double Value;
   std::unique_ptr<SegmentDomain> Domain;
   Polycube Cubes;
   std::vector<Vector3d> Corners;
+  double Alignment, Stretch;
+  bool IsSound;
+  double Margin; // by which it must be better than others
   bool IsOfCharts;
 };
 
@@ -82,7 +87,6 @@ DomainSearch::DomainSearch(
   , Options(options)
   , Run(execution)
   , IsSphere(mesh.EulerCharacteristic() == 2)
-  , MostValue(-std::numeric_limits<double>::infinity())
 {
 }
 
@@ -127,27 +131,22 @@ SegmentDomain DomainSearch::Best()
   {
     this->Try([this]() { this->TryCoarsePolycubes(); });
   }
-  std::stable_sort(this->Found.begin(), this->Found.end(),
-    [](const Candidate& a, const Candidate& b) { return a.Value > b.Value; });
-  for (Candidate& candidate : this->Found)
+  while (Candidate* best = this->Leader())
   {
-    if (!candidate.Domain)
+    if (best->Domain)
     {
-      this->Try(
-        [this, &candidate]()
-        {
-          candidate.Domain = std::make_unique<SegmentDomain>(DomainFromCorners(
-            this->Mesh, candidate.Cubes, candidate.Corners, this->Run.Part(0.8, 0.85)));
-        });
-    }
-    if (candidate.Domain)
-    {
-      SegmentDomain& domain = *candidate.Domain;
-      if (this->Options.Relax && Relax(domain.Layout, domain.Cubes, false, this->Run.Part(0.85, 1.0)))
+      SegmentDomain& domain = *best->Domain;
+      if (this->Options.Relax &&
+          Relax(domain.Layout, domain.Cubes, false, this->Run.Part(0.85, 1.0)))
       {
-        candidate.IsOfCharts ? this->Charts->Measure(domain) : MeasureStraight(domain);
+        best->IsOfCharts ? this->Charts->Measure(domain) : MeasureStraight(domain);
       }
       return std::move(domain);
+    }
+    this->Try([this, best]() { this->LayOut(*best); });
+    if (!best->Domain)
+    {
+      this->Found.erase(this->Found.begin() + (best - this->Found.data()));
     }
   }
   throw std::runtime_error(
@@ -170,68 +169,75 @@ std::string DomainSearch::Handles() const
 }
 
 //------------------------------------------------------------------------------
-double DomainSearch::Value(double alignment, double stretch, Index corners, bool sound) const
+double DomainSearch::Value(double alignment, double stretch, Index corners) const
 {
-  return alignment - StretchCost * stretch - this->Options.CornerCost * double(corners) -
-         (sound ? 0.0 : UnsoundCost);
+  return alignment - StretchCost * stretch - this->Options.CornerCost * double(corners);
 }
 
 //------------------------------------------------------------------------------
-// Whether a domain with this many corners can be the best at all.
-bool DomainSearch::IsWorthwhile(Index corners) const
+double DomainSearch::Value(const Candidate& candidate) const
 {
-  return this->Value(1.0, 0.0, corners, true) > this->MostValue;
+  return this->Value(candidate.Alignment, candidate.Stretch, candidate.Cubes.NumberOfCorners) -
+         (candidate.IsSound ? 0.0 : UnsoundCost) - candidate.Margin;
 }
 
 //------------------------------------------------------------------------------
-// Whether the best domain would be bettered by one with this many corners, aligned like it and
-// hardly stretched.
-bool DomainSearch::IsWorthLessStretch(Index corners) const
+// The best candidate; null where there is none.
+DomainSearch::Candidate* DomainSearch::Leader()
 {
-  return this->Found.empty() ||
-         this->Value(this->BestAlignment, LeastStretch, corners, true) > this->MostValue;
+  const auto best = std::max_element(this->Found.begin(), this->Found.end(),
+    [this](const Candidate& a, const Candidate& b) { return this->Value(a) < this->Value(b); });
+  return best == this->Found.end() ? nullptr : &*best;
 }
 
 //------------------------------------------------------------------------------
-void DomainSearch::Note(double value, double alignment)
+// Whether a domain with this many corners, and no less stretched, can be the best at all.
+bool DomainSearch::IsWorthwhile(Index corners, double stretch)
 {
-  if (value > this->MostValue)
-  {
-    this->MostValue = value;
-    this->BestAlignment = alignment;
-  }
+  const Candidate* best = this->Leader();
+  return !best || this->Value(1.0, stretch, corners) > this->Value(*best);
 }
 
 //------------------------------------------------------------------------------
-// One that is laid out on the surface already.
-void DomainSearch::Offer(SegmentDomain domain)
+// Whether the best domain would be bettered by a coarse polycube with this many corners, aligned
+// like it and hardly stretched.
+bool DomainSearch::IsWorthLessStretch(Index corners)
+{
+  const Candidate* best = this->Leader();
+  return !best ||
+         this->Value(best->Alignment, LeastStretch, corners) - CoarseMargin > this->Value(*best);
+}
+
+//------------------------------------------------------------------------------
+// One of charts, that is laid out on the surface already.
+void DomainSearch::Offer(SegmentDomain domain, double stretch)
 {
   RefuseInvalid(CheckLayout(domain.Layout, domain.Cubes));
-  const std::vector<Vector3d> corners = CornersOf(domain);
-  double stretch = 1.0;
-  this->Try(
-    [&]()
-    {
-      const SegmentDomain small = DomainFromCorners(*this->Small, domain.Cubes, corners, this->Run);
-      stretch = RelaxedStretch(small.Layout, small.Cubes, this->Run);
-    });
-  const double value =
-    this->Value(domain.Alignment, stretch, domain.Cubes.NumberOfCorners, IsSound(domain));
-  this->Note(value, domain.Alignment);
-  const Polycube cubes = domain.Cubes;
-  this->Found.push_back(
-    { value, std::make_unique<SegmentDomain>(std::move(domain)), cubes, corners, true });
+  Candidate candidate{ nullptr, domain.Cubes, {}, domain.Alignment, stretch, IsSound(domain), 0.0,
+    true };
+  candidate.Domain = std::make_unique<SegmentDomain>(std::move(domain));
+  this->Found.push_back(std::move(candidate));
 }
 
 //------------------------------------------------------------------------------
-// One that is laid out only if it is the best.
-void DomainSearch::OfferCorners(const Polycube& cubes, const std::vector<Vector3d>& corners)
+// One that is laid out only if it is the best. Returns its stretch.
+double DomainSearch::OfferCorners(
+  const Polycube& cubes, const std::vector<Vector3d>& corners, double margin)
 {
   const SegmentDomain small = DomainFromCorners(*this->Small, cubes, corners, this->Run);
-  const double value = this->Value(small.Alignment, RelaxedStretch(small.Layout, cubes, this->Run),
-    cubes.NumberOfCorners, IsSound(small));
-  this->Note(value, small.Alignment);
-  this->Found.push_back({ value, nullptr, cubes, corners, false });
+  const double stretch = RelaxedStretch(small.Layout, cubes, this->Run);
+  this->Found.push_back(
+    { nullptr, cubes, corners, small.Alignment, stretch, IsSound(small), margin, false });
+  return stretch;
+}
+
+//------------------------------------------------------------------------------
+void DomainSearch::LayOut(Candidate& candidate) const
+{
+  candidate.Domain = std::make_unique<SegmentDomain>(
+    DomainFromCorners(this->Mesh, candidate.Cubes, candidate.Corners, this->Run.Part(0.8, 0.85)));
+  candidate.Alignment = candidate.Domain->Alignment;
+  candidate.IsSound = IsSound(*candidate.Domain);
 }
 
 //------------------------------------------------------------------------------
@@ -242,18 +248,27 @@ void DomainSearch::TryCubeAndChains(int level)
   this->Charts = std::make_unique<ChartDomain>(
     this->Mesh, level, this->Options.Charts, this->Run.Part(0.1, 0.5));
   const ChartDomain& charts = *this->Charts;
-  const bool isCubeSound = IsSound(charts.Cube());
-  this->Offer(charts.Cube());
+  SegmentDomain cube = charts.Cube();
+  const bool isCubeSound = IsSound(cube);
+  double stretch = 1.0; // of chains as well: they are cut from the cube
+  this->Try(
+    [&]()
+    {
+      const SegmentDomain small =
+        DomainFromCorners(*this->Small, cube.Cubes, CornersOf(cube), this->Run.Part(0.5, 0.5));
+      stretch = RelaxedStretch(small.Layout, small.Cubes, this->Run.Part(0.5, 0.5));
+    });
+  this->Offer(std::move(cube), stretch);
   const auto isSoundInChain = [&](Index cubes)
   {
     const Index count = std::min(cubes, this->Options.MostCubes);
-    if (count < 2 || !this->IsWorthwhile(4 * (count + 1)))
+    if (count < 2 || !this->IsWorthwhile(4 * (count + 1), stretch))
     {
       return false;
     }
     SegmentDomain chain = charts.Chain(count, this->Run.Part(0.5, 0.55));
     const bool sound = IsSound(chain);
-    this->Offer(std::move(chain));
+    this->Offer(std::move(chain), stretch);
     return sound;
   };
   // As many cubes as it is long and, where it is bent, as few as are sound.
@@ -268,22 +283,57 @@ void DomainSearch::TryFlatPolycube()
 {
   const FlatPolycube flat =
     FindFlatPolycube(this->Mesh, this->Options.MostCubes, this->Run.Part(0.55, 0.6));
-  if (this->IsWorthwhile(flat.Cubes.NumberOfCorners))
+  if (this->IsWorthwhile(flat.Cubes.NumberOfCorners, 0.0))
   {
-    this->OfferCorners(flat.Cubes, flat.Corners);
+    this->OfferCorners(flat.Cubes, flat.Corners, 0.0);
   }
 }
 
 //------------------------------------------------------------------------------
-// Those over which a sheet is stretched least are laid out.
+// Those over which a sheet is stretched least, and a cube, are laid out.
 void DomainSearch::TryCoarsePolycubes()
 {
-  std::vector<Candidate> fitted;
-  // A bent cube is stretched evenly along its bend; a lattice does not follow that.
-  if ((this->Charts && this->Charts->IsBent()) || !this->IsWorthLessStretch(8))
+  if (!this->IsWorthLessStretch(LeastCoarse))
   {
     return;
   }
+  std::vector<Fitted> fitted = this->FitCoarsePolycubes();
+  std::stable_sort(fitted.begin(), fitted.end(),
+    [](const Fitted& a, const Fitted& b) { return a.Value > b.Value; });
+  const auto more = std::stable_partition(
+    fitted.begin(), fitted.end(), [](const Fitted& fit) { return fit.Cubes.Cubes.size() == 1; });
+  if (more != fitted.begin())
+  {
+    // The cube of charts may have corners from which it is stretched more than a cube must be.
+    this->Try(
+      [&]()
+      {
+        const double stretch =
+          this->OfferCorners(fitted.front().Cubes, fitted.front().Corners, CoarseMargin);
+        for (Candidate& candidate : this->Found)
+        {
+          if (candidate.IsOfCharts)
+          {
+            candidate.Stretch = std::min(candidate.Stretch, stretch);
+          }
+        }
+      });
+  }
+  const auto end = more + std::min<std::ptrdiff_t>(MostLaidOut, fitted.end() - more);
+  for (auto fit = more; fit != end; ++fit)
+  {
+    this->Run.Check(0.7 + 0.1 * double(fit - more) / MostLaidOut);
+    if (this->IsWorthLessStretch(fit->Cubes.NumberOfCorners))
+    {
+      this->Try([&]() { this->OfferCorners(fit->Cubes, fit->Corners, CoarseMargin); });
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+std::vector<DomainSearch::Fitted> DomainSearch::FitCoarsePolycubes()
+{
+  std::vector<Fitted> fitted;
   for (const Matrix3d& frame : FramesOf(*this->Small))
   {
     const PolycubeFitter fitter(*this->Small, frame);
@@ -292,30 +342,21 @@ void DomainSearch::TryCoarsePolycubes()
     for (const CoarsePolycube& coarse :
       FindCoarsePolycubes(*this->Small, frame, this->Options.MostCubes, this->Run.Part(0.6, 0.6)))
     {
+      const Index corners = coarse.Cubes.NumberOfCorners;
       const Index faces = static_cast<Index>(coarse.Cubes.Faces.size());
       if (worse == MostWorse || faces * LeastPerFace > this->Mesh.NumberOfTriangles() ||
-          !this->IsWorthLessStretch(coarse.Cubes.NumberOfCorners))
+          !this->IsWorthLessStretch(corners))
       {
         break;
       }
-      PolycubeFit fit = fitter.Fit(coarse.Cubes, coarse.Corners, this->Run.Part(0.6, 0.6));
+      PolycubeFit fit = fitter.Fit(coarse.Cubes, coarse.Corners, this->Run.Part(0.6, 0.7));
       const double value =
-        this->Value(0.0, fit.Stretch / (1.0 + fit.Stretch) + DistanceCost * fit.Distance,
-          coarse.Cubes.NumberOfCorners, true);
+        this->Value(0.0, fit.Stretch / (1.0 + fit.Stretch) + DistanceCost * fit.Distance, corners);
       worse = value > best ? 0 : worse + 1;
       best = std::max(best, value);
-      fitted.push_back({ value, nullptr, coarse.Cubes, std::move(fit.Corners), false });
+      fitted.push_back({ coarse.Cubes, std::move(fit.Corners), value });
     }
   }
-  std::stable_sort(fitted.begin(), fitted.end(),
-    [](const Candidate& a, const Candidate& b) { return a.Value > b.Value; });
-  for (std::size_t i = 0; i < std::min(MostLaidOut, fitted.size()); ++i)
-  {
-    this->Run.Check(0.65 + 0.15 * double(i) / MostLaidOut);
-    if (this->IsWorthLessStretch(fitted[i].Cubes.NumberOfCorners))
-    {
-      this->Try([&]() { this->OfferCorners(fitted[i].Cubes, fitted[i].Corners); });
-    }
-  }
+  return fitted;
 }
 }

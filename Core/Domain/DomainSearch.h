@@ -6,7 +6,6 @@
 
 #include "ChartDomain.h"
 
-#include <limits>
 #include <memory>
 #include <string>
 
@@ -23,18 +22,28 @@ public:
 
 private:
   struct Candidate;
+  struct Fitted
+  {
+    Polycube Cubes;
+    std::vector<Eigen::Vector3d> Corners;
+    double Value;
+  };
 
   template <typename Attempt>
   void Try(const Attempt& attempt);
   void TryCubeAndChains(int level);
   void TryFlatPolycube();
   void TryCoarsePolycubes();
-  void Offer(SegmentDomain domain);
-  void OfferCorners(const Polycube& cubes, const std::vector<Eigen::Vector3d>& corners);
-  double Value(double alignment, double stretch, Index corners, bool sound) const;
-  bool IsWorthwhile(Index corners) const;
-  bool IsWorthLessStretch(Index corners) const;
-  void Note(double value, double alignment);
+  std::vector<Fitted> FitCoarsePolycubes();
+  void Offer(SegmentDomain domain, double stretch);
+  double OfferCorners(
+    const Polycube& cubes, const std::vector<Eigen::Vector3d>& corners, double margin);
+  void LayOut(Candidate& candidate) const;
+  double Value(double alignment, double stretch, Index corners) const;
+  double Value(const Candidate& candidate) const;
+  Candidate* Leader();
+  bool IsWorthwhile(Index corners, double stretch);
+  bool IsWorthLessStretch(Index corners);
   std::string Handles() const;
 
   const SurfaceMesh& Mesh;
@@ -44,8 +53,6 @@ private:
   std::unique_ptr<SurfaceMesh> Small; // of fewer triangles
   std::unique_ptr<ChartDomain> Charts;
   std::vector<Candidate> Found;
-  double MostValue;
-  double BestAlignment = 1.0; // of the domain with that value
   std::string Reasons;
 };
 }

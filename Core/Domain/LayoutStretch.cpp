@@ -14,7 +14,7 @@ double RelaxedStretch(
 {
   try
   {
-    LayoutUnfolding unfolding(layout, cubes, false);
+    LayoutUnfolding unfolding(layout, cubes, true);
     return 1.0 - 1.0 / RelaxUnfolding(unfolding, RelaxationOptions(), execution).After;
   }
   catch (const std::runtime_error&)

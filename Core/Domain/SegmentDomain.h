@@ -37,15 +37,17 @@ struct SegmentDomain
 };
 
 /**
- * The domain with the largest alignment less 1.5 times the stretch, the cost of its corners, and 0.05
- * where a cube, straight between its corners, is inverted. CheckLayout finds nothing in it. Tried
- * are one cube, chains of cubes cut from it where it is long or so bent that one is inverted,
- * polycubes that fill the solid about as well as so few cubes can (CoarsePolycube.h), and on a
- * surface with flat parts (FlatPolycube.h) their polycube, the only one that may have handles.
+ * The domain with the largest alignment less 1.5 times the stretch, the cost of its corners, and
+ * 0.05 where a cube, straight between its corners, is inverted. CheckLayout finds nothing in it.
+ * Tried are one cube; chains of cubes cut from it where it is long, or so bent that one is
+ * inverted; on a surface with flat parts (FlatPolycube.h) their polycube, the only one that may
+ * have handles; and, where one cube is stretched, polycubes that fill the solid about as well as so
+ * few cubes can (CoarsePolycube.h). Those must be better by 0.03, lest what is only rough gets
+ * cubes.
  *
- * Stretch is measured on a surface of few triangles; only the best is laid out on the surface
- * itself. A surface with too few triangles is cut finer. Borders of the best one are relaxed
- * if wanted (RelaxedLayout.h).
+ * Stretch is measured on a surface of few triangles; it is that of the cube for chains cut from it.
+ * Only the best is laid out on the surface itself. A surface with too few triangles is cut finer.
+ * Borders of the best one are relaxed if wanted (RelaxedLayout.h).
  *
  * Throws std::invalid_argument for a surface of several pieces, std::runtime_error with the reasons
  * (and the place of a handle) where no domain can be laid out. O(n log n) beside one sparse

@@ -148,7 +148,7 @@ private:
     return neighbours;
   }
 
-  // Both ways along all edges of a point, or only those toward larger numbers.
+  // The cheaper way along all edges of a point, or only those toward larger numbers.
   void Offer(Index p, bool all)
   {
     for (const Index q : this->NeighboursOf(p))
@@ -159,8 +159,10 @@ private:
         sum.Add(this->Quadrics[q]);
         const double even = Evenness * sum.Area * (this->Points[p] - this->Points[q]).squaredNorm();
         const Index version = this->Versions[p] + this->Versions[q];
-        this->Queue.push({ sum.At(this->Points[q] - this->Centre) + even, p, q, version });
-        this->Queue.push({ sum.At(this->Points[p] - this->Centre) + even, q, p, version });
+        const double atP = sum.At(this->Points[p] - this->Centre);
+        const double atQ = sum.At(this->Points[q] - this->Centre);
+        this->Queue.push(atP < atQ ? Collapse{ atP + even, q, p, version }
+                                   : Collapse{ atQ + even, p, q, version });
       }
     }
   }
