@@ -36,7 +36,7 @@ constexpr double CoarseMargin = 0.03;    // so much better must a coarse polycub
 constexpr Index MostForBends = 8;        // cubes
 constexpr Index LeastCoarse = 12;        // corners of a polycube of more than one cube
 constexpr Index LeastPerFace = 100;      // triangles of the surface
-constexpr std::size_t MostLaidOut = 2;   // coarse polycubes
+constexpr int MostTries = 3;             // to lay out a coarse polycube
 constexpr int MostWorse = 3;             // polycubes in a row, each with more corners
 constexpr double DistanceCost = 5.0;     // in the stretch of a sheet laid over the surface
 
@@ -290,7 +290,7 @@ void DomainSearch::TryFlatPolycube()
 }
 
 //------------------------------------------------------------------------------
-// Those over which a sheet is stretched least, and a cube, are laid out.
+// A cube, and the one over which a sheet is stretched least, are laid out.
 void DomainSearch::TryCoarsePolycubes()
 {
   if (!this->IsWorthLessStretch(LeastCoarse))
@@ -319,13 +319,15 @@ void DomainSearch::TryCoarsePolycubes()
         }
       });
   }
-  const auto end = more + std::min<std::ptrdiff_t>(MostLaidOut, fitted.end() - more);
-  for (auto fit = more; fit != end; ++fit)
+  // The others in turn, until one can be laid out and mapped.
+  double stretch = 1.0;
+  const auto end = more + std::min<std::ptrdiff_t>(MostTries, fitted.end() - more);
+  for (auto fit = more; fit != end && stretch == 1.0; ++fit)
   {
-    this->Run.Check(0.7 + 0.1 * double(fit - more) / MostLaidOut);
+    this->Run.Check(0.7 + 0.1 * double(fit - more) / MostTries);
     if (this->IsWorthLessStretch(fit->Cubes.NumberOfCorners))
     {
-      this->Try([&]() { this->OfferCorners(fit->Cubes, fit->Corners, CoarseMargin); });
+      this->Try([&]() { stretch = this->OfferCorners(fit->Cubes, fit->Corners, CoarseMargin); });
     }
   }
 }
