@@ -186,10 +186,10 @@ public:
   /**
    * In automatic mode, how much better one more corner must make the domain. Its value is the
    * alignment (the area-weighted mean of the cosine between normals and the directions of the
-   * patches) less 1.5 times the stretch of the surface on the polycube: x / (1 + x), where x is the
-   * mean of (s^2 + 1/s^2 + t^2 + 1/t^2) / 4 - 1 over the surface, s and t the singular values of
-   * its map, 0 for an isometry. Cubes with branches must be better by 0.03. 0: as many cubes as are
-   * best; 1: one cube wherever one will do. Valid range [0, 1]. Default is 0.0015.
+   * patches) less 0.4 ln(1 + 20 x) for a stretch x of the surface on the polycube: e / (1 + e), where
+   * e is the mean of (s^2 + 1/s^2 + t^2 + 1/t^2) / 4 - 1 over the surface, s and t the singular
+   * values of its map, 0 for an isometry. Cubes with branches must be better by 0.03. 0: as many
+   * cubes as are best; 1: one cube wherever one will do. Valid range [0, 1]. Default is 0.0015.
    */
   vtkSetClampMacro(CornerCost, double, 0.0, 1.0);
   vtkGetMacro(CornerCost, double);

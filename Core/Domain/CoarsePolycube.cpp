@@ -26,7 +26,7 @@ class Lattice
 {
 public:
   explicit Lattice(const SolidGrid& grid)
-    : Grid(grid)
+    : Grid(&grid)
   {
     const std::array<int, 3>& size = grid.Size();
     const int longest = *std::max_element(size.begin(), size.end());
@@ -64,32 +64,33 @@ public:
     }
   }
 
-  // Takes away the plane between slabs that is missed least; false where there is none.
-  bool Coarsen()
+  // The planes between slabs, [axis, plane].
+  std::vector<std::array<int, 2>> InnerPlanes() const
   {
-    double least = 0.0;
-    int bestAxis = 0, best = 0;
+    std::vector<std::array<int, 2>> inner;
     for (int axis = 0; axis < 3; ++axis)
     {
-      const std::vector<int>& planes = this->Planes[axis];
       for (int i = 2; i <= this->Slabs(axis); ++i)
       {
-        const double more = this->Misfit(axis, planes[i - 1], planes[i + 1], false) -
-                            this->Misfit(axis, planes[i - 1], planes[i], false) -
-                            this->Misfit(axis, planes[i], planes[i + 1], false);
-        if (best == 0 || more < least)
-        {
-          least = more;
-          bestAxis = axis;
-          best = i;
-        }
+        inner.push_back({ axis, i });
       }
     }
-    if (best > 0)
-    {
-      this->Planes[bestAxis].erase(this->Planes[bestAxis].begin() + best);
-    }
-    return best > 0;
+    return inner;
+  }
+
+  // How much more misfit there is without a plane.
+  double Worth(const std::array<int, 2>& plane) const
+  {
+    const auto [axis, i] = plane;
+    const std::vector<int>& planes = this->Planes[axis];
+    return this->Misfit(axis, planes[i - 1], planes[i + 1], false) -
+           this->Misfit(axis, planes[i - 1], planes[i], false) -
+           this->Misfit(axis, planes[i], planes[i + 1], false);
+  }
+
+  void Remove(const std::array<int, 2>& plane)
+  {
+    this->Planes[plane[0]].erase(this->Planes[plane[0]].begin() + plane[1]);
   }
 
   // Two neighbouring slabs with the same cells become one.
@@ -118,7 +119,7 @@ public:
 
   double MisfitOf(const std::vector<LatticePoint>& cells) const
   {
-    const double inside = this->Grid.Inside({ 0, 0, 0 }, this->Grid.Size());
+    const double inside = this->Grid->Inside({ 0, 0, 0 }, this->Grid->Size());
     double misfit = inside;
     for (const LatticePoint& cell : cells)
     {
@@ -134,7 +135,7 @@ public:
     {
       place[axis] = this->Planes[axis][p[axis] + 1];
     }
-    return this->Grid.Place(place);
+    return this->Grid->Place(place);
   }
 
 private:
@@ -147,7 +148,7 @@ private:
       low[axis] = this->Planes[axis][cell[axis] + 1];
       high[axis] = this->Planes[axis][cell[axis] + 2];
     }
-    return this->Grid.Inside(low, high) - this->Grid.Outside(low, high);
+    return this->Grid->Inside(low, high) - this->Grid->Outside(low, high);
   }
 
   // Of a slab between two places: what its cells have too much or too little.
@@ -167,9 +168,9 @@ private:
       {
         low[b] = this->Planes[b][j];
         high[b] = this->Planes[b][j + 1];
-        const double inside = this->Grid.Inside(low, high);
+        const double inside = this->Grid->Inside(low, high);
         const bool isOutside = outsideA || j == 0 || j + 2 == this->Planes[b].size();
-        sum += isOutside ? inside : std::min(inside, this->Grid.Outside(low, high));
+        sum += isOutside ? inside : std::min(inside, this->Grid->Outside(low, high));
       }
     }
     return sum;
@@ -240,7 +241,7 @@ private:
     }
   }
 
-  const SolidGrid& Grid;
+  const SolidGrid* Grid;
   std::array<std::vector<int>, 3> Planes;
 };
 }
@@ -255,24 +256,38 @@ std::vector<CoarsePolycube> FindCoarsePolycubes(const SurfaceMesh& mesh,
   {
     return found;
   }
-  Lattice lattice(grid);
-  const int stages = lattice.Slabs(0) + lattice.Slabs(1) + lattice.Slabs(2) - 2;
-  for (int stage = 0; stage < stages; ++stage)
+  const auto consider = [&](Lattice lattice)
   {
-    execution.Check(double(stage) / stages);
     lattice.Settle();
-    Lattice merged = lattice;
-    const std::vector<LatticePoint> cells = merged.FullCells();
+    const Lattice settled = lattice;
+    const std::vector<LatticePoint> cells = lattice.FullCells();
     if (static_cast<Index>(cells.size()) <= mostCubes)
     {
-      CoarsePolycube coarse{ Polycube(cells), {}, merged.MisfitOf(cells) };
+      CoarsePolycube coarse{ Polycube(cells), {}, lattice.MisfitOf(cells) };
       for (Index corner = 0; corner < coarse.Cubes.NumberOfCorners; ++corner)
       {
-        coarse.Corners.push_back(merged.Place(coarse.Cubes.Points[corner]));
+        coarse.Corners.push_back(lattice.Place(coarse.Cubes.Points[corner]));
       }
       found.push_back(std::move(coarse));
     }
-    lattice.Coarsen();
+    return settled;
+  };
+  Lattice lattice = consider(Lattice(grid));
+  const auto stages = static_cast<double>(lattice.InnerPlanes().size() + 1);
+  for (auto planes = lattice.InnerPlanes(); !planes.empty(); planes = lattice.InnerPlanes())
+  {
+    execution.Check(1.0 - double(planes.size() + 1) / stages);
+    std::vector<std::pair<double, Lattice>> without;
+    for (const std::array<int, 2>& plane : planes)
+    {
+      Lattice fewer = lattice;
+      fewer.Remove(plane);
+      without.emplace_back(lattice.Worth(plane), consider(std::move(fewer)));
+    }
+    lattice = std::min_element(without.begin(), without.end(),
+      [](const auto& a, const auto& b) {
+        return a.first < b.first;
+      })->second;
   }
   std::stable_sort(found.begin(), found.end(),
     [](const CoarsePolycube& a, const CoarsePolycube& b)

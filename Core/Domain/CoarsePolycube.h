@@ -20,9 +20,10 @@ struct CoarsePolycube
 /**
  * Space is cut along the axes of a frame by planes, eight slabs along the longest axis, and planes
  * are moved to where cells are as full or as empty as can be. Then one plane after the other, the
- * one that is missed least, is taken away. At each stage the full cells that are a topological ball
- * (CellShape.h) are a polycube; no two slabs in it are the same. Those are returned that fit better
- * than all with as many corners or fewer, the fewest corners first.
+ * one that is missed least, is taken away; the other planes are tried, too. Each time the full
+ * cells that are a topological ball (CellShape.h) are a polycube; no two slabs in it are the same.
+ * Those are returned that fit better than all with as many corners or fewer, the fewest corners
+ * first.
  *
  * Rows of `frame`: the axes. A surface that is a sphere's equal. O(n + 1e6).
  */

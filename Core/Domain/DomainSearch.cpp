@@ -28,17 +28,19 @@ using Eigen::Vector3d;
 constexpr int MostRefinement = 2;
 constexpr Index EnoughTriangles = 20000; // six charts need no more
 constexpr Index FewTriangles = 2000;     // enough to tell how much a surface is stretched
-constexpr double StretchCost = 1.5;      // in alignment
-constexpr double LeastStretch = 0.01;    // that can be had of more cubes
-constexpr double UnsoundCost = 0.05;     // in alignment, of cubes inverted between their corners
-constexpr double CoarseMargin = 0.03;    // so much better must a coarse polycube be: no cubes for
-                                         // what is only rough
-constexpr Index MostForBends = 8;        // cubes
-constexpr Index LeastCoarse = 12;        // corners of a polycube of more than one cube
-constexpr Index LeastPerFace = 100;      // triangles of the surface
-constexpr int MostTries = 3;             // to lay out a coarse polycube
-constexpr int MostWorse = 3;             // polycubes in a row, each with more corners
-constexpr double DistanceCost = 5.0;     // in the stretch of a sheet laid over the surface
+constexpr double StretchCost = 0.4;      // in alignment, of e times the stretch, from StretchUnit
+constexpr double StretchUnit = 0.05;
+constexpr double LeastStretch = 0.1;  // that is worth a search for more cubes
+constexpr double LessStretch = 0.5;   // of one cube's that can be had of more
+constexpr double UnsoundCost = 0.05;  // in alignment, of cubes inverted between their corners
+constexpr double CoarseMargin = 0.03; // so much better must a coarse polycube be: no cubes for
+                                      // what is only rough
+constexpr Index MostForBends = 8;     // cubes
+constexpr Index LeastPerFace = 100;   // triangles of the surface
+constexpr int MostTries = 3;          // to lay out a coarse polycube
+constexpr int MostWorse = 4;          // polycubes in a row, each with more corners
+constexpr double SheetCost = 1.5;     // in alignment, of a sheet's stretch and
+constexpr double DistanceCost = 5.0;  // so many times its distance from the surface
 
 bool IsSound(const SegmentDomain& domain)
 {
@@ -171,13 +173,24 @@ std::string DomainSearch::Handles() const
 //------------------------------------------------------------------------------
 double DomainSearch::Value(double alignment, double stretch, Index corners) const
 {
-  return alignment - StretchCost * stretch - this->Options.CornerCost * double(corners);
+  return alignment - StretchCost * std::log(1.0 + stretch / StretchUnit) -
+         this->Options.CornerCost * double(corners);
+}
+
+//------------------------------------------------------------------------------
+// One cube, with whatever corners, and chains, which are cut from one, are stretched as a cube must
+// be: what is left to choose among them is alignment.
+double DomainSearch::StretchOf(const Candidate& candidate) const
+{
+  const bool isCube = candidate.IsOfCharts || candidate.Cubes.Cubes.size() == 1;
+  return isCube ? std::min(candidate.Stretch, this->CubeStretch) : candidate.Stretch;
 }
 
 //------------------------------------------------------------------------------
 double DomainSearch::Value(const Candidate& candidate) const
 {
-  return this->Value(candidate.Alignment, candidate.Stretch, candidate.Cubes.NumberOfCorners) -
+  const double stretch = this->StretchOf(candidate);
+  return this->Value(candidate.Alignment, stretch, candidate.Cubes.NumberOfCorners) -
          (candidate.IsSound ? 0.0 : UnsoundCost) - candidate.Margin;
 }
 
@@ -200,12 +213,13 @@ bool DomainSearch::IsWorthwhile(Index corners, double stretch)
 
 //------------------------------------------------------------------------------
 // Whether the best domain would be bettered by a coarse polycube with this many corners, aligned
-// like it and hardly stretched.
+// like it and stretched half as much.
 bool DomainSearch::IsWorthLessStretch(Index corners)
 {
   const Candidate* best = this->Leader();
-  return !best ||
-         this->Value(best->Alignment, LeastStretch, corners) - CoarseMargin > this->Value(*best);
+  return !best || this->Value(best->Alignment, LessStretch * this->StretchOf(*best), corners) -
+                      CoarseMargin >
+                    this->Value(*best);
 }
 
 //------------------------------------------------------------------------------
@@ -228,6 +242,10 @@ double DomainSearch::OfferCorners(
   const double stretch = RelaxedStretch(small.Layout, cubes, this->Run);
   this->Found.push_back(
     { nullptr, cubes, corners, small.Alignment, stretch, IsSound(small), margin, false });
+  if (cubes.Cubes.size() == 1)
+  {
+    this->CubeStretch = std::min(this->CubeStretch, stretch);
+  }
   return stretch;
 }
 
@@ -293,7 +311,8 @@ void DomainSearch::TryFlatPolycube()
 // A cube, and the one over which a sheet is stretched least, are laid out.
 void DomainSearch::TryCoarsePolycubes()
 {
-  if (!this->IsWorthLessStretch(LeastCoarse))
+  const Candidate* best = this->Leader();
+  if (best && this->StretchOf(*best) < LeastStretch)
   {
     return;
   }
@@ -304,20 +323,8 @@ void DomainSearch::TryCoarsePolycubes()
     fitted.begin(), fitted.end(), [](const Fitted& fit) { return fit.Cubes.Cubes.size() == 1; });
   if (more != fitted.begin())
   {
-    // The cube of charts may have corners from which it is stretched more than a cube must be.
     this->Try(
-      [&]()
-      {
-        const double stretch =
-          this->OfferCorners(fitted.front().Cubes, fitted.front().Corners, CoarseMargin);
-        for (Candidate& candidate : this->Found)
-        {
-          if (candidate.IsOfCharts)
-          {
-            candidate.Stretch = std::min(candidate.Stretch, stretch);
-          }
-        }
-      });
+      [&]() { this->OfferCorners(fitted.front().Cubes, fitted.front().Corners, CoarseMargin); });
   }
   // The others in turn, until one can be laid out and mapped.
   double stretch = 1.0;
@@ -353,7 +360,8 @@ std::vector<DomainSearch::Fitted> DomainSearch::FitCoarsePolycubes()
       }
       PolycubeFit fit = fitter.Fit(coarse.Cubes, coarse.Corners, this->Run.Part(0.6, 0.7));
       const double value =
-        this->Value(0.0, fit.Stretch / (1.0 + fit.Stretch) + DistanceCost * fit.Distance, corners);
+        -SheetCost * (fit.Stretch / (1.0 + fit.Stretch) + DistanceCost * fit.Distance) -
+        this->Options.CornerCost * double(corners);
       worse = value > best ? 0 : worse + 1;
       best = std::max(best, value);
       fitted.push_back({ coarse.Cubes, std::move(fit.Corners), value });

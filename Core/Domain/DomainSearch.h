@@ -41,6 +41,7 @@ private:
   void LayOut(Candidate& candidate) const;
   double Value(double alignment, double stretch, Index corners) const;
   double Value(const Candidate& candidate) const;
+  double StretchOf(const Candidate& candidate) const;
   Candidate* Leader();
   bool IsWorthwhile(Index corners, double stretch);
   bool IsWorthLessStretch(Index corners);
@@ -53,6 +54,7 @@ private:
   std::unique_ptr<SurfaceMesh> Small; // of fewer triangles
   std::unique_ptr<ChartDomain> Charts;
   std::vector<Candidate> Found;
+  double CubeStretch = 1.0; // the least that was found with one cube
   std::string Reasons;
 };
 }

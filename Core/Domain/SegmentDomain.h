@@ -12,8 +12,9 @@ namespace trivariate
 struct DomainOptions
 {
   CubeChartOptions Charts;
-  /// How much one more corner must bring, in alignment (see SegmentDomain) less 1.5 times the
-  /// stretch (LayoutStretch.h). 0: as many cubes as are best; 1: one cube wherever one will do.
+  /// How much one more corner must bring, in alignment (see SegmentDomain) less 0.4 ln(1 + 20 x)
+  /// for a stretch x (LayoutStretch.h). 0: as many cubes as are best; 1: one cube wherever one will
+  /// do.
   double CornerCost = 0.0015;
   /// Domains with more cubes are not looked at.
   Index MostCubes = 64;
@@ -37,13 +38,13 @@ struct SegmentDomain
 };
 
 /**
- * The domain with the largest alignment less 1.5 times the stretch, the cost of its corners, and
- * 0.05 where a cube, straight between its corners, is inverted. CheckLayout finds nothing in it.
- * Tried are one cube; chains of cubes cut from it where it is long, or so bent that one is
- * inverted; on a surface with flat parts (FlatPolycube.h) their polycube, the only one that may
- * have handles; and, where one cube is stretched, polycubes that fill the solid about as well as so
- * few cubes can (CoarsePolycube.h). Those must be better by 0.03, lest what is only rough gets
- * cubes.
+ * The domain with the largest alignment, less 0.4 ln(1 + 20 x) for a stretch x, the cost of its
+ * corners, and 0.05 where a cube, straight between its corners, is inverted. CheckLayout finds
+ * nothing in it. Tried are one cube; chains of cubes cut from it where it is long, or so bent that
+ * one is inverted; on a surface with flat parts (FlatPolycube.h) their polycube, the only one that
+ * may have handles; and, where stretch is more than 0.1, polycubes that fill the solid about as
+ * well as so few cubes can (CoarsePolycube.h). Those must be better by 0.03, lest what is only
+ * rough gets cubes.
  *
  * Stretch is measured on a surface of few triangles; it is that of the cube for chains cut from it.
  * Only the best is laid out on the surface itself. A surface with too few triangles is cut finer.
