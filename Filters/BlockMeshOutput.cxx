@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BlockMeshOutput.h"
 
+#include "NamedArray.h"
+
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
@@ -28,15 +30,6 @@ namespace trivariate
 {
 namespace
 {
-template <typename ArrayT>
-vtkNew<ArrayT> Named(const char* name, int components = 1)
-{
-  vtkNew<ArrayT> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  return array;
-}
-
 // The arrays on cells, filled block by block.
 struct CellArrays
 {

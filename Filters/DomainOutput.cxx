@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DomainOutput.h"
 
+#include "NamedArray.h"
+
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
@@ -21,15 +23,6 @@ namespace trivariate
 {
 namespace
 {
-template <typename ArrayT>
-vtkNew<ArrayT> Named(const char* name, int components = 1)
-{
-  vtkNew<ArrayT> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  return array;
-}
-
 vtkNew<vtkPoints> DoublePoints()
 {
   vtkNew<vtkPoints> points;
