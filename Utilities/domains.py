@@ -23,24 +23,13 @@ import subprocess
 import sys
 import time
 
+import segments
+
 RUNS = ["tooth=105", "fuel=15", "hydrogen_atom=20", "ankle_128=40", "nucleon=50", "nucleon=150",
         "walnut=80", "tooth=105+", "tooth=105,175+", "fuel=15,100", "aneurism=60"]
 VOLUMES = ["tooth", "fuel", "hydrogen_atom", "ankle_128", "nucleon", "walnut"]
 STEPS = 20
 LEAST_VOXELS = 100
-
-data = pathlib.Path(os.environ.get("TRIVARIATE_DATA_DIR",
-                                   pathlib.Path(__file__).resolve().parents[2] / "shared" / "data"))
-
-
-def volume_of(name):
-    from vtkmodules.vtkIOXML import vtkXMLImageDataReader
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-    reader = vtkXMLImageDataReader()
-    reader.SetFileName(str(data / f"{name}.vti"))
-    reader.Update()
-    image = reader.GetOutput()
-    return image, vtk_to_numpy(image.GetPointData().GetArray(0))
 
 
 def write(output, file):
@@ -56,30 +45,14 @@ def write(output, file):
 def measure(run, folder):
     """One row, as a dictionary."""
     import numpy
-    from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+    from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkFiltersVerdict import vtkMeshQuality
     from trivariate import vtkPolycubeDomain, vtkSegmentBoundary, vtkSegmentTopology
     name, thresholds = run.split("=")
-    image, density = volume_of(name)
-    values = [float(t) for t in thresholds.rstrip("+").split(",")]
-
-    def set_labels(labels):
-        array = numpy_to_vtk(labels.astype(numpy.int32), deep=1)
-        array.SetName("Segment")
-        image.GetPointData().AddArray(array)
-    inside = density > values[0]
-    if thresholds.endswith("+"):
-        set_labels(inside)
-        filled = vtkSegmentTopology()
-        filled.SetInputData(image)
-        filled.SetLargestCavity(2**31 - 1)
-        filled.Update()
-        inside = vtk_to_numpy(filled.GetOutput().GetPointData().GetArray("Segment")) > 0
-    set_labels(inside * (1 + sum((density > value).astype(int) for value in values[1:])))
     row = {"messages": ""}
     topology, boundary, domain = vtkSegmentTopology(), vtkSegmentBoundary(), vtkPolycubeDomain()
     boundary.UseDensityOff()
-    topology.SetInputData(image)
+    topology.SetInputData(segments.labelled(run))
     boundary.SetInputConnection(topology.GetOutputPort())
     domain.SetInputConnection(boundary.GetOutputPort())
 
@@ -150,7 +123,7 @@ def sweep(volumes, folder):
           "| peak MiB |\n|---|---|---|---|---|---|---|---|", flush=True)
     messages = []
     for volume in volumes:
-        _, density = volume_of(volume)
+        _, density = segments.volume_of(volume)
         low, high = (float(d) for d in numpy.sort(density)[[density.size // 2, -1 - LEAST_VOXELS]])
         rows = []
         for step in range(1, STEPS + 1):

@@ -6,6 +6,7 @@
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/LU>
 #include <Eigen/SparseCore>
+#include <Eigen/SparseLU>
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +24,8 @@ using Eigen::Vector3d;
 constexpr int MostRounds = 12;
 constexpr double Gain = 0.01;       // the least share by which a round must lower the stretch
 constexpr double LeastArea = 1e-14; // of a triangle in the square
-constexpr double Tolerance = 1e-12; // of the equations
+constexpr int MostIterations = 300;
+constexpr double Tolerance = 1e-11; // of the equations
 
 using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
@@ -270,6 +272,7 @@ std::vector<Vector2d> PatchMap::Solved(
   matrix.setFromTriplets(entries.begin(), entries.end());
   Eigen::BiCGSTAB<Matrix, StoppableFactors> solver;
   solver.setTolerance(Tolerance);
+  solver.setMaxIterations(MostIterations);
   solver.preconditioner().RunBy(execution.Part(0.5, 0.5));
   solver.compute(matrix);
   Eigen::MatrixX2d solution = right;
@@ -278,6 +281,13 @@ std::vector<Vector2d> PatchMap::Solved(
   {
     solution.col(axis) = solver.solve(right.col(axis));
     isSolved = solver.info() == Eigen::Success;
+  }
+  if (!isSolved) // far from flat; exact factors take longer, and do not look at the flag
+  {
+    execution.Check(0.6);
+    const Eigen::SparseLU<Eigen::SparseMatrix<double>> factors(matrix);
+    isSolved = factors.info() == Eigen::Success;
+    solution = isSolved ? Eigen::MatrixX2d(factors.solve(right)) : solution;
   }
   if (!isSolved || !solution.allFinite())
   {
