@@ -23,7 +23,7 @@ COLORS = numpy.array([[[190, 60, 55], [225, 130, 105]], [[50, 115, 55], [125, 17
                       [[50, 85, 150], [120, 155, 215]]], dtype=numpy.uint8)
 SIZE = 304
 # From where, and what is up.
-VIEWS = {"tooth=105+": ((0.6, -1, 0.3), (0.15, 0, 1)), "ankle_128=40": ((1, -1, -0.4), (0, 0, -1)),
+VIEWS = {"tooth=105+": ((0.6, -1, 0.3), (0.15, 0, 1)), "ankle_128=40": ((1, -1, -0.5), (0, 0, -1)),
          "fuel=15": ((0.8, -1, 0.5), (0, 0, 1)), "hydrogen_atom=20": ((1, -1, 0.6), (0, 0, 1)),
          "nucleon=150": ((1, -1, 0.6), (0, 0, 1))}
 
@@ -48,7 +48,7 @@ def draw_domain(renderer, folder, run):
     camera.SetPosition(*(numpy.array(patches.GetCenter()) + direction))
     camera.SetViewUp(*up)
     renderer.ResetCamera()
-    camera.Zoom(1.25)
+    camera.Zoom(1.1)
 
 
 runs = sys.argv[3:] or list(VIEWS)
