@@ -238,8 +238,9 @@ void DomainSearch::Offer(SegmentDomain domain, double stretch)
 double DomainSearch::OfferCorners(
   const Polycube& cubes, const std::vector<Vector3d>& corners, double margin)
 {
-  const SegmentDomain small = DomainFromCorners(*this->Small, cubes, corners, this->Run);
-  const double stretch = RelaxedStretch(small.Layout, cubes, this->Run);
+  const Execution run = this->Run.Part(0.7, 0.7);
+  const SegmentDomain small = DomainFromCorners(*this->Small, cubes, corners, run);
+  const double stretch = RelaxedStretch(small.Layout, cubes, run);
   this->Found.push_back(
     { nullptr, cubes, corners, small.Alignment, stretch, IsSound(small), margin, false });
   if (cubes.Cubes.size() == 1)
@@ -349,7 +350,7 @@ std::vector<DomainSearch::Fitted> DomainSearch::FitCoarsePolycubes()
     double best = -std::numeric_limits<double>::infinity();
     int worse = 0;
     for (const CoarsePolycube& coarse :
-      FindCoarsePolycubes(*this->Small, frame, this->Options.MostCubes, this->Run.Part(0.6, 0.6)))
+      FindCoarsePolycubes(*this->Small, frame, this->Options.MostCubes, this->Run.Part(0.7, 0.7)))
     {
       const Index corners = coarse.Cubes.NumberOfCorners;
       const Index faces = static_cast<Index>(coarse.Cubes.Faces.size());
@@ -358,7 +359,7 @@ std::vector<DomainSearch::Fitted> DomainSearch::FitCoarsePolycubes()
       {
         break;
       }
-      PolycubeFit fit = fitter.Fit(coarse.Cubes, coarse.Corners, this->Run.Part(0.6, 0.7));
+      PolycubeFit fit = fitter.Fit(coarse.Cubes, coarse.Corners, this->Run.Part(0.7, 0.7));
       const double value =
         -SheetCost * (fit.Stretch / (1.0 + fit.Stretch) + DistanceCost * fit.Distance) -
         this->Options.CornerCost * double(corners);
