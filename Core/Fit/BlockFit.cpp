@@ -8,6 +8,7 @@
 #include "ScatteredSystem.h"
 #include "ShapeInverse.h"
 #include "ShapeJacobian.h"
+#include "ShapeSolver.h"
 #include "ShapeTarget.h"
 
 #include <algorithm>
@@ -27,17 +28,13 @@ constexpr double Margin = 0.25;
 // How often voxels that are still outside pull the surface over themselves.
 constexpr int Pulls = 4;
 
-// How often the samples of the surface slide after a solution between refinements, and after the
-// last one.
-constexpr int RoundSlides = 2, FinalSlides = 6;
+// Steps of the shape with each barrier after a refinement; after the last one as many as it needs.
+constexpr int RoundSteps = 3;
 
 // Stiffness of all cells of a shape whose surface slides: little enough to bend as the surface
 // does, enough to be smooth inside where the block mesh is not.
-constexpr float LeastStiffness = 2e-6f;
+constexpr float Stiffness = 2e-6f;
 
-// By how much cells that fold become stiffer with each attempt to unfold them.
-constexpr float StiffnessGrowth = 4.0f;
-constexpr int FoldAttempts = 6;
 // One stage: some components are fitted to some samples, and the spline is refined for them.
 struct Stage
 {
@@ -46,8 +43,7 @@ struct Stage
   std::vector<double> Scales; // of each component: the unit of its error
   double RmsTolerance, MaximumTolerance;
   Index MaximumPoints;
-  ShapeTarget* Target;               // null: a stage of attributes
-  std::vector<float> Stiffness = {}; // of each cell of a shape
+  ShapeTarget* Target; // null: a stage of attributes
 };
 
 class BlockFitter
@@ -158,8 +154,7 @@ private:
       ScatteredSystem system(target.Samples(), 0, this->Layout, this->Run);
       Stage stage{ system, 0, std::vector<double>(3, 1.0), 0.0, 0.0, 0, &target };
       this->Update(stage);
-      this->Slide(stage);
-      this->Solve(stage, FinalTolerance, FinalIterations);
+      this->SlideToSurface(stage, true);
       this->Measure(stage);
       places = std::move(outside);
       starts = std::move(feet);
@@ -195,7 +190,7 @@ private:
     this->Measure(stage);
     while (true)
     {
-      const bool isGood = this->IsGoodEnough(stage) && (!stage.Target || this->Unfold(stage));
+      const bool isGood = this->IsGoodEnough(stage);
       const bool isRefined = !isGood && this->RefineOnce(stage);
       if (isRefined)
       {
@@ -209,11 +204,6 @@ private:
       this->Result.Rounds.pop_back();
       this->Solve(stage, FinalTolerance, FinalIterations);
       this->Measure(stage);
-      if (stage.Target)
-      {
-        this->Unfold(stage);
-        this->Folded.clear();
-      }
       if (!isGood || this->IsGoodEnough(stage))
       {
         return;
@@ -224,36 +214,35 @@ private:
   void Update(Stage& stage)
   {
     stage.System.Update(this->Result.Spline);
-    if (stage.Target)
+    if (stage.Target && stage.Target->Slides())
     {
-      const float stiffness = stage.Target->Slides() ? LeastStiffness : 0.0f;
-      stage.Stiffness.assign(stage.System.Mesh().Size(), stiffness);
-      stage.System.SetStiffness(stage.Stiffness);
+      stage.System.SetStiffness(std::vector<float>(stage.System.Mesh().Size(), Stiffness));
     }
   }
 
   void Solve(Stage& stage, double tolerance, int iterations)
   {
-    const GramMatrix gram = stage.System.Assemble();
-    this->Lap("assemble");
-    this->Correct(stage, gram, tolerance, iterations);
-    if (stage.Target && stage.Target->Slides())
+    const bool slides = stage.Target && stage.Target->Slides();
+    if (!slides || this->Result.Rounds.empty())
     {
-      const int slides = tolerance == FinalTolerance ? FinalSlides : RoundSlides;
-      for (int slide = 0; slide < slides; ++slide)
-      {
-        this->Slide(stage);
-        this->Correct(stage, gram, tolerance, iterations);
-      }
-      this->Slide(stage);
+      const GramMatrix gram = stage.System.Assemble();
+      this->Lap("assemble");
+      this->Correct(stage, gram, tolerance, iterations);
+    }
+    if (slides)
+    {
+      this->SlideToSurface(stage, tolerance == FinalTolerance);
     }
   }
 
-  void Slide(Stage& stage)
+  // Refinement keeps the shape, so that only the coarsest net can have folds.
+  void SlideToSurface(Stage& stage, bool isLast)
   {
-    stage.Target->Slide(this->Result.Spline, stage.System.Mesh(), this->Run);
-    stage.System.ComputeResiduals(this->Result.Spline);
-    this->Lap("slide");
+    ShapeSolverOptions options;
+    options.Spacing = this->Options.Spacing;
+    options.MostSteps = isLast ? options.MostSteps : RoundSteps;
+    SolveShape(this->Result.Spline, stage.System, *stage.Target, options, this->Run);
+    this->Lap("shape");
   }
 
   void Correct(Stage& stage, const GramMatrix& gram, double tolerance, int iterations)
@@ -312,95 +301,11 @@ private:
       const double scale = stage.Scales[c];
       stage.System.AddGains(static_cast<int>(c), 1.0 / (scale * scale), gains);
     }
-    if (!this->Folded.empty())
-    {
-      this->KeepGainsOfFolds(stage.System.Mesh(), gains);
-    }
     this->Lap("indicator");
     const bool isRefined =
       this->Marks.Refine(std::move(gains), stage.MaximumPoints, this->Result.Spline, this->Rule);
     this->Lap("refine");
     return isRefined;
-  }
-
-  // Whether the shape folds somewhere; marks the cells.
-  bool FindFolds(const Stage& stage)
-  {
-    const auto bounds = BoundJacobian(this->Result.Spline, stage.System.Mesh(), this->Run);
-    this->Folded.assign(bounds.size(), 0);
-    std::transform(bounds.begin(), bounds.end(), this->Folded.begin(),
-      [](const CellJacobian& cell) { return cell.Sampled <= 0.0; });
-    this->Lap("folds");
-    if (std::find(this->Folded.begin(), this->Folded.end(), 1) == this->Folded.end())
-    {
-      this->Folded.clear();
-    }
-    return !this->Folded.empty();
-  }
-
-  // Makes cells that fold stiffer, and those around them, as long as there are some and the shape
-  // stays where it is; whether it then does not fold and is near enough.
-  bool Unfold(Stage& stage)
-  {
-    const BezierMesh& mesh = stage.System.Mesh();
-    const double farthest = std::max(stage.RmsTolerance, this->Result.Rounds.back().Rms);
-    for (int attempt = 0; this->FindFolds(stage); ++attempt)
-    {
-      if (attempt == FoldAttempts)
-      {
-        return false;
-      }
-      const std::vector<float> softer = stage.Stiffness;
-      const std::vector<char> isActive = this->FunctionsOfFolds(mesh);
-      for (Index cell = 0; cell < mesh.Size(); ++cell)
-      {
-        const IdRange active = mesh.ActiveFunctions(cell);
-        if (std::any_of(
-              active.begin(), active.end(), [&isActive](std::int32_t i) { return isActive[i]; }))
-        {
-          stage.Stiffness[cell] = StiffnessGrowth * std::max(LeastStiffness, stage.Stiffness[cell]);
-        }
-      }
-      const std::vector<double> before = this->Result.Spline.ControlPoints;
-      const FitRound round = this->Result.Rounds.back();
-      this->Result.Rounds.pop_back();
-      stage.System.SetStiffness(stage.Stiffness);
-      this->Solve(stage, FinalTolerance, FinalIterations);
-      this->Measure(stage);
-      if (this->Result.Rounds.back().Rms > farthest)
-      {
-        this->Result.Spline.ControlPoints = before;
-        this->Result.Rounds.back() = round;
-        stage.Stiffness = softer;
-        stage.System.SetStiffness(softer);
-        stage.System.ComputeResiduals(this->Result.Spline);
-        return false;
-      }
-    }
-    return this->IsGoodEnough(stage);
-  }
-
-  std::vector<char> FunctionsOfFolds(const BezierMesh& mesh) const
-  {
-    std::vector<char> isActive(this->Result.Spline.Size(), 0);
-    for (Index cell = 0; cell < mesh.Size(); ++cell)
-    {
-      for (const std::int32_t i : mesh.ActiveFunctions(cell))
-      {
-        isActive[i] |= this->Folded[cell];
-      }
-    }
-    return isActive;
-  }
-
-  // Where only folds ask for more functions, only theirs are split.
-  void KeepGainsOfFolds(const BezierMesh& mesh, std::vector<SplitGain>& gains)
-  {
-    const std::vector<char> isWanted = this->FunctionsOfFolds(mesh);
-    gains.erase(std::remove_if(gains.begin(), gains.end(),
-                  [&isWanted](const SplitGain& gain) { return !isWanted[gain.Function]; }),
-      gains.end());
-    this->Folded.clear();
   }
 
   std::vector<double> FindParameters()
@@ -434,7 +339,6 @@ private:
   std::unique_ptr<RefinementRule> Rule;
   Index CoarsestSize = 1;
   double Done = 0.0;
-  std::vector<char> Folded; // of each cell, where the shape is near enough but folds
 };
 }
 

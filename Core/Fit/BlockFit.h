@@ -4,10 +4,10 @@
  * Adaptive least-squares fit of one T-spline to samples over the blocks of a domain.
  *
  * First the shape: X, Y, Z as functions of the parameters, refined until the spline's surface lies
- * on that of the samples, wherever on it, and no further; what comes after carries it along
- * unchanged, so it lives on a coarser net, nested in that of the attributes. Then every voxel takes
- * the parameters at which this shape passes through it, and the attributes are fitted there, as in
- * FitGrid.
+ * on that of the samples, wherever on it, and no further, with a barrier against folds
+ * (ShapeSolver.h); what comes after carries it along unchanged, so it lives on a coarser net,
+ * nested in that of the attributes. Then every voxel takes the parameters at which this shape
+ * passes through it, and the attributes are fitted there, as in FitGrid.
  */
 #ifndef trivariate_BlockFit_h
 #define trivariate_BlockFit_h

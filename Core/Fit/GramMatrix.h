@@ -30,6 +30,23 @@ public:
 
   Index Size() const { return static_cast<Index>(this->Diagonal.size()); }
 
+  /// Calls visit(i, j, A_ij) with all entries between functions that have a voxel.
+  template <typename Visit>
+  void VisitEntries(const Visit& visit) const
+  {
+    for (Index i = 0; i < this->Size(); ++i)
+    {
+      for (Index at = this->RowBegin[i]; this->Scale[i] > 0.0 && at < this->RowBegin[i + 1]; ++at)
+      {
+        const std::int32_t j = this->Columns[at];
+        if (this->Scale[j] > 0.0)
+        {
+          visit(i, j, this->Values[at] / (this->Scale[i] * this->Scale[j]));
+        }
+      }
+    }
+  }
+
   /**
    * Conjugate gradients for A x = b from x = 0, preconditioned by a symmetric Gauss-Seidel sweep
    * within blocks of neighbouring functions, until the residual has fallen by `tolerance` (in the

@@ -200,17 +200,27 @@ void ScatteredSystem::ComputeResiduals(const TSpline& spline)
 //------------------------------------------------------------------------------
 ScatteredError ScatteredSystem::Error(int component) const
 {
-  double squares = 0.0, weights = 0.0;
+  double weights = 0.0;
   ScatteredError error;
   for (std::size_t at = 0; at < this->Sorted.size(); ++at)
   {
-    const double r = this->Residuals[component][at], weight = this->WeightOf(this->Sorted[at]);
-    squares += weight * r * r;
-    weights += weight;
-    error.Maximum = std::max(error.Maximum, std::abs(r));
+    weights += this->WeightOf(this->Sorted[at]);
+    error.Maximum = std::max(error.Maximum, std::abs(this->Residuals[component][at]));
   }
-  error.Rms = std::sqrt(squares / weights);
+  error.Rms = std::sqrt(this->SquaredError(component) / weights);
   return error;
+}
+
+//------------------------------------------------------------------------------
+double ScatteredSystem::SquaredError(int component) const
+{
+  double squares = 0.0;
+  for (std::size_t at = 0; at < this->Sorted.size(); ++at)
+  {
+    const double r = this->Residuals[component][at];
+    squares += this->WeightOf(this->Sorted[at]) * r * r;
+  }
+  return squares;
 }
 
 //------------------------------------------------------------------------------

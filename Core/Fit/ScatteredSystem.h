@@ -74,6 +74,8 @@ public:
   /// Takes the residuals of all components.
   void ComputeResiduals(const TSpline& spline);
   ScatteredError Error(int component) const;
+  /// The weighted sum of squared residuals.
+  double SquaredError(int component) const;
 
   /// The weighted sums of residual times function of each control point: the negative gradient.
   std::vector<double> Gradient(int component) const;

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * How far the shape of a spline is from folding, as a function of its net: the mean of CornerEnergy
+ * over points of all Bezier cells,
+ *   E(J) = tr(J^T J) / chi(D)^(2/3) + (1 + D^2) / chi(D),   D = det J,
+ * where J takes a cube to the cell, each direction in parts of the cell's own length. A net is the
+ * homogeneous coefficients w_i p_i of control points, one row each.
+ */
+#ifndef trivariate_FoldEnergy_h
+#define trivariate_FoldEnergy_h
+
+#include "BlockSpline.h"
+#include "Execution.h"
+#include "TSpline/BezierMesh.h"
+
+#include <Eigen/Dense>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <vector>
+
+namespace trivariate
+{
+using ShapeNet = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+
+class FoldEnergy
+{
+public:
+  /// The lengths of cells are those of the net. The arguments but it must outlive this object.
+  FoldEnergy(const BezierMesh& mesh, const SharedPoints& points, const ShapeNet& net,
+    const Execution& execution);
+
+  /// Cells count at 5 x 5 x 5 points; from now on those that fold or nearly fold at 9 x 9 x 9
+  /// there, and of these those that fold at 17 x 17 x 17 there.
+  void CountFinely(const ShapeNet& net);
+
+  struct Evaluation
+  {
+    double Energy = 0.0;
+    std::vector<double> Least; ///< determinants of the cells, in parts of their lengths
+    bool Folds() const { return *std::min_element(this->Least.begin(), this->Least.end()) <= 0.0; }
+  };
+  Evaluation Evaluate(const ShapeNet& net) const;
+
+  /// Regularises cells that fold, by their least determinants, with every call less.
+  void Regularise(const std::vector<double>& least);
+
+  /// The gradient at a net; keeps what Curve needs.
+  ShapeNet Differentiate(const ShapeNet& net);
+
+  /// The curvature of the energy at the net of Differentiate times a direction, without the part
+  /// that is not convex.
+  ShapeNet Curve(const ShapeNet& direction) const;
+
+  /// The curvature at cells that are cubes, the same for X, Y and Z: a matrix of all points.
+  Eigen::SparseMatrix<double> CurvatureOfCubes() const;
+
+private:
+  using Derivatives = Eigen::Matrix<double, Eigen::Dynamic, 9>;
+  struct Cell
+  {
+    std::vector<std::int32_t> Points; // of its functions
+    Eigen::MatrixXd Extraction;       // from their coefficients to the 64 of Bernstein
+    Eigen::Vector3d Lengths;
+  };
+  // At a point: how the energy changes with J.
+  struct PointCurvature
+  {
+    Eigen::Matrix3d Jacobian, Cofactors;
+    double ByTrace, ByBoth, ByDeterminantTwice;
+  };
+
+  // J at points of a cell, but along a unit cube: a row each, column after column.
+  Derivatives DerivativesOf(Index cell, const ShapeNet& net, int halvings) const;
+  double LeastOf(Index cell, const Derivatives& derivatives) const;
+  template <typename Visit>
+  ShapeNet Collect(const Visit& visit) const;
+
+  const Execution& Run;
+  Index Points;
+  std::vector<Cell> Cells;
+  std::vector<char> Halvings;         // of the points of each cell
+  std::vector<double> Regularisation; // of each cell
+  std::vector<double> Bluntness;      // of each cell, the next one in parts of its determinant
+  std::vector<std::vector<PointCurvature>> Curvature;
+};
+}
+
+#endif

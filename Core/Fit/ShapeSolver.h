@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// Fits a shape that does not fold.
+#ifndef trivariate_ShapeSolver_h
+#define trivariate_ShapeSolver_h
+
+#include "ScatteredSystem.h"
+#include "ShapeTarget.h"
+
+namespace trivariate
+{
+struct ShapeSolverOptions
+{
+  /// What FoldEnergy costs: that of cells that are cubes (5) as much as samples that are off by the
+  /// root of five times this, in parts of Spacing. It falls from the first to the last.
+  double FirstBarrier = 0.3, LastBarrier = 0.003;
+  double Spacing = 1.0; ///< distance of voxels in the unit of the places
+  int MostSteps = 40;   ///< with each
+};
+
+/**
+ * Minimises the squared errors of the samples, with the stiffness of the system, plus FoldEnergy,
+ * from the shape as it is. A shape without folds keeps without; folds are regularised, each cell by
+ * its own least determinant, less from step to step, until none is left. Newton steps, by conjugate
+ * gradients that are preconditioned with the factors of the curvature that samples and cubes would
+ * have. Where the target slides, it does so between steps.
+ *
+ * The system must know the spline's functions; it has the residuals of the result afterwards. A
+ * step costs 1 to 5 milliseconds a cell.
+ */
+void SolveShape(TSpline& spline, ScatteredSystem& system, ShapeTarget& target,
+  const ShapeSolverOptions& options, const Execution& execution);
+}
+
+#endif
