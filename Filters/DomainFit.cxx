@@ -30,6 +30,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <stdexcept>
 
@@ -88,6 +89,16 @@ void MoveParameters(vtkImageData* image, const BlockComplex& all, const BlockCom
     parameter->SetTuple(voxel, p.data());
   }
 }
+
+// Zero for the remesher's default of two voxels, or longer where that would fill the image with
+// more cells than are untangled within a minute or two.
+double HexahedronEdge(vtkImageData* image)
+{
+  constexpr double mostCells = 30000.0;
+  const double voxels = std::cbrt(static_cast<double>(image->GetNumberOfPoints()) / mostCells);
+  const double* spacing = image->GetSpacing();
+  return voxels > 2.0 ? voxels * std::cbrt(spacing[0] * spacing[1] * spacing[2]) : 0.0;
+}
 }
 
 //------------------------------------------------------------------------------
@@ -110,6 +121,7 @@ FilledDomains FillDomains(vtkImageData* image, vtkPolyData* patches, vtkUnstruct
   run(parameters, Framed, Parameterized);
 
   vtkNew<vtkHexRemesh> hexahedra;
+  hexahedra->SetEdgeLength(HexahedronEdge(image));
   hexahedra->SetInputDataObject(0, image);
   hexahedra->SetInputDataObject(1, patches);
   hexahedra->SetInputDataObject(2, polycubes);

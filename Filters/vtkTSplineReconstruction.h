@@ -46,8 +46,9 @@
  * Port 4: vtkPolyData, patches, of vtkPolycubeDomain. Port 5: vtkUnstructuredGrid, polycubes, and
  * port 6: vtkImageData, fields, both of vtkVolumeParameterization (frames, Parameter,
  * ParameterMask, Block; without domains the image of port 2). Port 7: vtkUnstructuredGrid,
- * hexahedra of vtkHexRemesh, with the field data InvertedCells (double x 2, before and after
- * repair) and ScaledJacobian (double x 2, least and mean).
+ * hexahedra of vtkHexRemesh, two voxels long, or as long as 30,000 of them fill the image if that
+ * is more; with the field data InvertedCells (double x 2, before and after repair) and
+ * ScaledJacobian (double x 2, least and mean).
  *
  * @par Cost
  * The sum of the steps; memory that of the most expensive one. Threaded with vtkSMPTools; the

@@ -53,7 +53,7 @@ public:
     const BlockFitOptions& options, const Execution& execution)
     : Blocks(blocks)
     , Voxels(voxels)
-    , Shape(shape.Parameters.empty() ? ShapeSamples{ voxels.Parameters, voxels.Places } : shape)
+    , Shape(shape.Parameters.empty() ? ShapeSamples{ voxels.Parameters, voxels.Places, {} } : shape)
     , Options(options)
     , Run(execution)
     , Layout(blocks, KnotDepth(blocks, Shape, options.Spacing))

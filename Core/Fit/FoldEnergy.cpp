@@ -213,7 +213,7 @@ void FoldEnergy::CountFinely(const ShapeNet& net)
       {
         char& halvings = this->Halvings[c];
         while (halvings < MostHalvings &&
-               this->LeastOf(c, this->DerivativesOf(c, net, halvings + 1)) <= Nearly[halvings])
+               this->LeastOf(c, this->DerivativesOf(c, net, halvings + 1)) <= Nearly[int(halvings)])
         {
           ++halvings;
         }
