@@ -26,7 +26,9 @@
  * Port 1 (optional): vtkUnstructuredGrid, the polycube of vtkVolumeParameterization; makes it a fit
  * over a domain.
  * Port 2 (optional): vtkPartitionedDataSetCollection, its block meshes, which tell where the
- * surface is. Without them the shape is fitted to the voxels and ends near the outermost of them.
+ * surface is; a barrier on the determinant then keeps the shape from folding, and a warning says in
+ * how many cells it folds still. Without them the shape is fitted to the voxels and ends near the
+ * outermost of them.
  *
  * @par Output
  * Port 0: the T-spline grid, a vtkUnstructuredGrid with one point and one vertex cell a control
