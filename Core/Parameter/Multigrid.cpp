@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 #include <stdexcept>
 
@@ -18,40 +19,41 @@ constexpr Index FewUnknowns = 500;
 // Numbers that are worked on by one thread at a time; sums do not depend on the threads.
 constexpr Index ChunkSize = 1 << 16;
 
+// Calls body(i) for i in [0, n), and adds up what it returns.
 template <typename Body>
-void ForEachChunk(Index n, const Execution& execution, const Body& body)
+double SumOver(Index n, const Execution& execution, const Body& body)
+{
+  std::vector<double> sums((n + ChunkSize - 1) / ChunkSize);
+  execution.Check(0.0);
+  execution.ParallelFor(static_cast<Index>(sums.size()),
+    [&](Index first, Index last)
+    {
+      for (Index chunk = first; chunk < last; ++chunk)
+      {
+        double sum = 0.0;
+        const Index end = std::min(n, (chunk + 1) * ChunkSize);
+        for (Index i = chunk * ChunkSize; i < end; ++i)
+        {
+          sum += body(i);
+        }
+        sums[chunk] = sum;
+      }
+    });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+template <typename Body>
+void ForEach(Index n, const Execution& execution, const Body& body)
 {
   execution.Check(0.0);
   execution.ParallelFor((n + ChunkSize - 1) / ChunkSize,
     [&](Index first, Index last)
     {
-      for (Index chunk = first; chunk < last; ++chunk)
+      for (Index i = first * ChunkSize; i < std::min(n, last * ChunkSize); ++i)
       {
-        body(chunk, chunk * ChunkSize, std::min(n, (chunk + 1) * ChunkSize));
+        body(i);
       }
     });
-}
-
-double Dot(const std::vector<double>& a, const std::vector<double>& b, const Execution& execution)
-{
-  const Index n = static_cast<Index>(a.size());
-  std::vector<double> sums((n + ChunkSize - 1) / ChunkSize);
-  ForEachChunk(n, execution,
-    [&](Index chunk, Index begin, Index end)
-    {
-      double sum = 0.0;
-      for (Index i = begin; i < end; ++i)
-      {
-        sum += a[i] * b[i];
-      }
-      sums[chunk] = sum;
-    });
-  double total = 0.0;
-  for (const double sum : sums)
-  {
-    total += sum;
-  }
-  return total;
 }
 
 Index UnknownsOf(const StencilMatrix& matrix)
@@ -174,17 +176,19 @@ void Multigrid::Cycle(std::size_t level, const Execution& execution)
 }
 
 //------------------------------------------------------------------------------
-void Multigrid::Precondition(const double* r, double* z, const Execution& execution)
+double Multigrid::Precondition(const double* r, double* z, const Execution& execution)
 {
-  Vectors& top = this->Levels.front();
+  float* from = this->Levels.front().RightHandSide.data();
+  const float* to = this->Levels.front().Solution.data();
   const Index n = this->Finest.Length();
-  ForEachChunk(n, execution,
-    [&](Index, Index begin, Index end)
-    { std::copy(r + begin, r + end, top.RightHandSide.begin() + begin); });
+  ForEach(n, execution, [=](Index i) { from[i] = static_cast<float>(r[i]); });
   this->Cycle(0, execution);
-  ForEachChunk(n, execution,
-    [&](Index, Index begin, Index end)
-    { std::copy(top.Solution.begin() + begin, top.Solution.begin() + end, z + begin); });
+  return SumOver(n, execution,
+    [=](Index i)
+    {
+      z[i] = to[i];
+      return r[i] * z[i];
+    });
 }
 
 //------------------------------------------------------------------------------
@@ -195,19 +199,18 @@ LinearSolve SolveConjugateGradients(const LinearOperator& a, Multigrid& precondi
   LinearSolve solve;
   const Index n = static_cast<Index>(b.size());
   const Execution start = execution.Part(0.0, 0.0);
-  std::vector<double> r(n, 0.0), z(n, 0.0), p(n, 0.0);
+  Eigen::VectorXd r(n), z(n), p(n);
+  ForEach(n, start, [&](Index i) { r[i] = z[i] = p[i] = 0.0; });
   a(x.data(), r.data(), start);
-  ForEachChunk(n, start,
-    [&](Index, Index begin, Index end)
+  const double size = std::sqrt(SumOver(n, start, [&](Index i) { return b[i] * b[i]; }));
+  const double first = std::sqrt(SumOver(n, start,
+    [&](Index i)
     {
-      for (Index i = begin; i < end; ++i)
-      {
-        r[i] = b[i] - r[i];
-      }
-    });
-  const double size = std::sqrt(Dot(b, b, start));
+      r[i] = b[i] - r[i];
+      return r[i] * r[i];
+    }));
   double before = 1.0, done = 0.0;
-  solve.Residual = size > 0.0 ? std::sqrt(Dot(r, r, start)) / size : 0.0;
+  solve.Residual = size > 0.0 ? first / size : 0.0;
   while (!(solve.Residual <= tolerance))
   {
     if (solve.Iterations == most)
@@ -220,30 +223,20 @@ LinearSolve SolveConjugateGradients(const LinearOperator& a, Multigrid& precondi
     }
     done = std::clamp(std::log(solve.Residual) / std::log(tolerance), done, 1.0);
     const Execution here = execution.Part(done, done);
-    preconditioner.Precondition(r.data(), z.data(), here);
-    const double product = Dot(r, z, here);
+    const double product = preconditioner.Precondition(r.data(), z.data(), here);
     const double beta = solve.Iterations == 0 ? 0.0 : product / before;
     before = product;
-    ForEachChunk(n, here,
-      [&](Index, Index begin, Index end)
-      {
-        for (Index i = begin; i < end; ++i)
-        {
-          p[i] = z[i] + beta * p[i];
-        }
-      });
+    ForEach(n, here, [&](Index i) { p[i] = z[i] + beta * p[i]; });
     a(p.data(), z.data(), here);
-    const double alpha = product / Dot(p, z, here);
-    ForEachChunk(n, here,
-      [&](Index, Index begin, Index end)
+    const double alpha = product / SumOver(n, here, [&](Index i) { return p[i] * z[i]; });
+    const double squares = SumOver(n, here,
+      [&](Index i)
       {
-        for (Index i = begin; i < end; ++i)
-        {
-          x[i] += alpha * p[i];
-          r[i] -= alpha * z[i];
-        }
+        x[i] += alpha * p[i];
+        r[i] -= alpha * z[i];
+        return r[i] * r[i];
       });
-    solve.Residual = std::sqrt(Dot(r, r, here)) / size;
+    solve.Residual = std::sqrt(squares) / size;
     ++solve.Iterations;
   }
   return solve;

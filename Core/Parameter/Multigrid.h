@@ -24,8 +24,8 @@ public:
   /// coarse rows that are not common: 216 bytes each.
   Multigrid(const StencilMatrix& matrix, const Execution& execution);
 
-  /// z = M r, M symmetric and close to the inverse of A.
-  void Precondition(const double* r, double* z, const Execution& execution);
+  /// z = M r, M symmetric and close to the inverse of A. Returns r z.
+  double Precondition(const double* r, double* z, const Execution& execution);
 
   Index NumberOfLevels() const { return static_cast<Index>(this->Coarse.size()) + 1; }
 

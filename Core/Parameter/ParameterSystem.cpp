@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
-#include <tuple>
+#include <numeric>
 
 namespace trivariate
 {
@@ -96,27 +94,34 @@ private:
 
 using CellMatrix = Eigen::Matrix<double, 8, 8>;
 
-// Visits the cells, slab by slab: first the even slabs, then the odd ones, so that no node belongs
-// to two slabs at a time.
+// Visits the slabs of cells: first the even ones, then the odd ones, so that no node belongs to two
+// at a time.
 template <typename Visit>
-void ForEachCell(const ParameterCells& cells, const Execution& execution, const Visit& visit)
+void ForEachSlabByTurns(const ParameterCells& cells, const Execution& execution, const Visit& visit)
 {
   for (Index parity = 0; parity < 2; ++parity)
   {
     ForEachSlab(cells.Size, (cells.Size[2] - 1 - parity + 1) / 2,
       execution.Part(0.5 * static_cast<double>(parity), 0.5 * static_cast<double>(parity + 1)),
-      [&](Index slab)
-      {
-        const Index begin = cells.NodeAt(0, 0, 2 * slab + parity);
-        for (Index cell = begin; cell < begin + cells.Size[0] * cells.Size[1]; ++cell)
-        {
-          if (cells.Cut[cell] != UnusedCell)
-          {
-            visit(cell);
-          }
-        }
-      });
+      [&](Index slab) { visit(2 * slab + parity); });
   }
+}
+
+template <typename Visit>
+void ForEachCell(const ParameterCells& cells, const Execution& execution, const Visit& visit)
+{
+  ForEachSlabByTurns(cells, execution,
+    [&](Index slab)
+    {
+      const Index begin = cells.NodeAt(0, 0, slab);
+      for (Index cell = begin; cell < begin + cells.Size[0] * cells.Size[1]; ++cell)
+      {
+        if (cells.Cut[cell] != UnusedCell)
+        {
+          visit(cell);
+        }
+      }
+    });
 }
 
 // The place in a row of corner `to` for corner `from`.
@@ -161,108 +166,110 @@ std::vector<std::int32_t> NumberRows(const ParameterCells& cells, bool uniform)
   return rowOf;
 }
 
+// Samples by the slab of their cells: those of slab k begin at Begin[k], in their order.
+struct SamplesOfSlabs
+{
+  SamplesOfSlabs(const ParameterCells& cells, const PlaneSamples& samples)
+    : Begin(cells.Size[2] + 1, 0)
+    , Samples(samples.Samples.size())
+  {
+    const Index slab = cells.Size[0] * cells.Size[1];
+    for (const PlaneSample& sample : samples.Samples)
+    {
+      ++this->Begin[sample.Cell / slab + 1];
+    }
+    std::partial_sum(this->Begin.begin(), this->Begin.end(), this->Begin.begin());
+    std::vector<Index> next(this->Begin.begin(), this->Begin.end() - 1);
+    for (const PlaneSample& sample : samples.Samples)
+    {
+      this->Samples[next[sample.Cell / slab]++] = &sample;
+    }
+  }
+
+  template <typename Visit>
+  void ForEach(Index slab, const Visit& visit) const
+  {
+    for (Index s = this->Begin[slab]; s < this->Begin[slab + 1]; ++s)
+    {
+      visit(*this->Samples[s]);
+    }
+  }
+
+  std::vector<Index> Begin;
+  std::vector<const PlaneSample*> Samples;
+};
+
+// The links of the nodes of a slab: summed up for all its nodes and planes from the cells below and
+// above.
+std::vector<StencilMatrix::Link> LinksOfSlab(const ParameterCells& cells,
+  const SamplesOfSlabs& samples, Index slab, Index planes, double stiffness)
+{
+  const Index nodes = cells.Size[0] * cells.Size[1];
+  std::vector<StencilMatrix::Link> links;
+  std::vector<double> sums;
+  for (Index below = std::max<Index>(0, slab - 1); below <= slab; ++below)
+  {
+    samples.ForEach(below,
+      [&](const PlaneSample& sample)
+      {
+        if (sample.Plane == 0)
+        {
+          return;
+        }
+        sums.resize(nodes * planes, 0.0);
+        const std::array<double, 8> corners = sample.CornerWeights();
+        for (int c = below < slab ? 4 : 0; c < (below < slab ? 8 : 4); ++c)
+        {
+          const Index node = cells.Corner(sample.Cell, c) - nodes * slab;
+          sums[planes * node + sample.Plane - 1] -= stiffness * sample.Weight * corners[c];
+        }
+      });
+  }
+  for (std::size_t s = 0; s < sums.size(); ++s)
+  {
+    if (sums[s] != 0.0)
+    {
+      const Index at = static_cast<Index>(s);
+      links.push_back(
+        { nodes * slab + at / planes, static_cast<std::int32_t>(at % planes), sums[s] });
+    }
+  }
+  return links;
+}
+
 void AddPenalty(const ParameterCells& cells, const PlaneSamples& samples, double stiffness,
   const std::vector<std::int32_t>& rowOf, StencilMatrix& matrix, const Execution& execution)
 {
-  execution.Check(0.0);
-  matrix.PlaneDiagonal.assign(samples.Coordinates.size() - 1, 0.0);
-  std::vector<StencilMatrix::Link> links;
+  const Index planes = static_cast<Index>(samples.Coordinates.size()) - 1;
+  const SamplesOfSlabs slabs(cells, samples);
+  ForEachSlabByTurns(cells, execution.Part(0.0, 0.6),
+    [&](Index slab)
+    {
+      slabs.ForEach(slab,
+        [&](const PlaneSample& sample)
+        {
+          const std::array<double, 8> corners = sample.CornerWeights();
+          const Eigen::Map<const Eigen::Matrix<double, 8, 1>> n(corners.data());
+          AddToRows(
+            cells, sample.Cell, stiffness * sample.Weight * n * n.transpose(), rowOf, matrix.Rows);
+        });
+    });
+  std::vector<std::vector<StencilMatrix::Link>> links(cells.Size[2]);
+  ForEachSlab(cells.Size, cells.Size[2], execution.Part(0.6, 1.0),
+    [&](Index slab) { links[slab] = LinksOfSlab(cells, slabs, slab, planes, stiffness); });
+  for (const std::vector<StencilMatrix::Link>& list : links)
+  {
+    matrix.Links.insert(matrix.Links.end(), list.begin(), list.end());
+  }
+  matrix.PlaneDiagonal.assign(planes, 0.0);
   for (const PlaneSample& sample : samples.Samples)
   {
-    const double weight = stiffness * sample.Weight;
-    const std::array<double, 8> corners = sample.CornerWeights();
-    const Eigen::Map<const Eigen::Matrix<double, 8, 1>> n(corners.data());
-    AddToRows(cells, sample.Cell, weight * n * n.transpose(), rowOf, matrix.Rows);
     if (sample.Plane > 0)
     {
-      matrix.PlaneDiagonal[sample.Plane - 1] += weight;
-      for (int c = 0; c < 8; ++c)
-      {
-        links.push_back({ cells.Corner(sample.Cell, c), sample.Plane - 1, -weight * corners[c] });
-      }
+      matrix.PlaneDiagonal[sample.Plane - 1] += stiffness * sample.Weight;
     }
   }
-  execution.Check(0.5);
-  matrix.SetLinks(std::move(links));
-  execution.Check(1.0);
 }
-}
-
-//------------------------------------------------------------------------------
-TargetField FillTargets(
-  const ParameterCells& cells, const ParameterVoxels& voxels, int axis, const Execution& execution)
-{
-  TargetField targets(cells.Nodes(), Vector3d::Zero());
-  const auto forEachNode = [&](const auto& visit)
-  {
-    ForEachSlab(cells.Size, cells.Size[2], execution.Part(0.0, 0.9),
-      [&](Index k)
-      {
-        for (Index j = 0; j < cells.Size[1]; ++j)
-        {
-          for (Index i = 0; i < cells.Size[0]; ++i)
-          {
-            visit(i, j, k, cells.NodeAt(i, j, k));
-          }
-        }
-      });
-  };
-  forEachNode(
-    [&](Index i, Index j, Index k, Index node)
-    {
-      if (cells.Known[node] != 2)
-      {
-        return;
-      }
-      const Index x = i + cells.Low[0], y = j + cells.Low[1], z = k + cells.Low[2];
-      targets[node] =
-        voxels.FrameAt(x + voxels.Size[0] * (y + voxels.Size[1] * z)).row(axis).transpose();
-      if (!(targets[node].squaredNorm() > 1e-12) || !targets[node].allFinite())
-      {
-        std::ostringstream message;
-        message << "The frame of voxel (" << x << ", " << y << ", " << z << ") has "
-                << targets[node].transpose() << " along "
-                << "uvw"[axis] << ": the frame field does not belong to this segment.";
-        throw std::invalid_argument(message.str());
-      }
-    });
-  // From the segment outwards, a layer of nodes at a time; nearer neighbours weigh more.
-  std::vector<std::uint8_t> filled = cells.Known;
-  for (bool more = true; more;)
-  {
-    execution.Check(0.9);
-    std::vector<Index> layer;
-    for (Index node = 0; node < cells.Nodes(); ++node)
-    {
-      if (filled[node] != 1)
-      {
-        continue;
-      }
-      double weights = 0.0;
-      for (int d = 0; d < 27; ++d)
-      {
-        const int step[3] = { d % 3 - 1, d / 3 % 3 - 1, d / 9 - 1 };
-        const Index other = node + step[0] + cells.Size[0] * (step[1] + cells.Size[1] * step[2]);
-        if (filled[other] == 2)
-        {
-          const double weight = 1.0 / (step[0] * step[0] + step[1] * step[1] + step[2] * step[2]);
-          targets[node] += weight * targets[other];
-          weights += weight;
-        }
-      }
-      if (weights > 0.0)
-      {
-        targets[node] /= weights;
-        layer.push_back(node);
-      }
-    }
-    for (const Index node : layer)
-    {
-      filled[node] = 2;
-    }
-    more = !layer.empty();
-  }
-  return targets;
 }
 
 //------------------------------------------------------------------------------

@@ -6,19 +6,10 @@
 
 #include "PlaneSamples.h"
 #include "StencilMatrix.h"
+#include "TargetField.h"
 
 namespace trivariate
 {
-/// The wanted gradient at each node of a box; zero where it is not known.
-using TargetField = std::vector<Eigen::Vector3d>;
-
-/**
- * Row `axis` of the frames at the voxels of the segment; on the band the mean of the neighbours
- * that are closer to the segment. Throws std::invalid_argument where one is zero or not finite.
- */
-TargetField FillTargets(
-  const ParameterCells& cells, const ParameterVoxels& voxels, int axis, const Execution& execution);
-
 /**
  * sum over cells and their 2 x 2 x 2 integration points, each weighted by the share of its octant,
  * of grad u^T D grad u, D = I - (1 - epsilon) f f^T / |f|^2, times `energy`; and the penalty

@@ -164,7 +164,8 @@ void RelaxLines(
   for (int step = 0; step < 4; ++step)
   {
     const int color = forward ? step : 3 - step;
-    ForEachSlab(a.Size, (a.Size[2] - color / 2 + 1) / 2, execution,
+    ForEachSlab(
+      a.Size, (a.Size[2] - color / 2 + 1) / 2, execution,
       [&](Index slab)
       {
         const Index k = 2 * slab + color / 2;
@@ -172,7 +173,8 @@ void RelaxLines(
         {
           RelaxLine(a, b, x, j + a.Size[1] * k, forward);
         }
-      });
+      },
+      QuickNodes);
   }
 }
 
@@ -205,8 +207,7 @@ void SubtractLinks(const StencilMatrix& a, const Real* x, Real* y)
 void ForEachSlab(const std::array<Index, 3>& size, Index count, const Execution& execution,
   const std::function<void(Index)>& body, Index atOnce)
 {
-  // Threads take longer to start than a few ten thousand nodes to visit.
-  const bool small = size[0] * size[1] * size[2] < 30000;
+  const bool small = size[0] * size[1] * size[2] < atOnce / 128;
   const auto range = [&body](Index begin, Index end)
   {
     for (Index k = begin; k < end; ++k)
@@ -311,7 +312,8 @@ StencilRow StencilMatrix::CommonStencil() const
 template <typename Real>
 void Multiply(const StencilMatrix& a, const Real* x, Real* y, const Execution& execution)
 {
-  ForEachSlab(a.Size, a.Size[2], execution,
+  ForEachSlab(
+    a.Size, a.Size[2], execution,
     [&](Index k)
     {
       for (Index line = a.Size[1] * k; line < a.Size[1] * (k + 1); ++line)
@@ -319,7 +321,8 @@ void Multiply(const StencilMatrix& a, const Real* x, Real* y, const Execution& e
         Real* to = y + a.Size[0] * line;
         LineTimes(a, x, line, [to](Index i, Real product) { to[i] = product; });
       }
-    });
+    },
+    QuickNodes);
   std::vector<double> planes(a.Planes());
   for (Index p = 0; p < a.Planes(); ++p)
   {
@@ -338,7 +341,8 @@ template <typename Real>
 void Residual(
   const StencilMatrix& a, const Real* b, const Real* x, Real* r, const Execution& execution)
 {
-  ForEachSlab(a.Size, a.Size[2], execution,
+  ForEachSlab(
+    a.Size, a.Size[2], execution,
     [&](Index k)
     {
       for (Index line = a.Size[1] * k; line < a.Size[1] * (k + 1); ++line)
@@ -347,7 +351,8 @@ void Residual(
         Real* to = r + a.Size[0] * line;
         LineTimes(a, x, line, [from, to](Index i, Real product) { to[i] = from[i] - product; });
       }
-    });
+    },
+    QuickNodes);
   SubtractLinks(a, x, r);
   std::vector<double> planes(a.Planes());
   for (Index p = 0; p < a.Planes(); ++p)

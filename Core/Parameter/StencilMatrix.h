@@ -66,10 +66,13 @@ struct StencilMatrix
   StencilRow CommonStencil() const;
 };
 
+/// Nodes visited at once where each takes some ten nanoseconds.
+constexpr Index QuickNodes = 1 << 22;
+
 /**
- * Runs body for every k in [0, count), on threads where a grid of that size is worth it; then
- * progress goes on, and the user's abort flag is looked at, whenever about `atOnce` nodes are done,
- * which should take less than half a second.
+ * Runs body for every k in [0, count); progress goes on, and the user's abort flag is looked at,
+ * whenever about `atOnce` nodes are done, which should take less than half a second. On threads
+ * where there are more nodes than a 128th of that, which take longer than threads to start.
  */
 void ForEachSlab(const std::array<Index, 3>& size, Index count, const Execution& execution,
   const std::function<void(Index)>& body, Index atOnce = 1 << 19);

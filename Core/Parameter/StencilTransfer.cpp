@@ -205,7 +205,8 @@ StencilMatrix Coarsen(const StencilMatrix& fine, const Execution& execution)
 void Restrict(const StencilMatrix& fine, const StencilMatrix& coarse, const float* r, float* b,
   const Execution& execution)
 {
-  ForEachSlab(coarse.Size, coarse.Size[2], execution,
+  ForEachSlab(
+    coarse.Size, coarse.Size[2], execution,
     [&](Index k)
     {
       // The fine lines around a coarse one, summed up; with room for a node before and after.
@@ -241,7 +242,8 @@ void Restrict(const StencilMatrix& fine, const StencilMatrix& coarse, const floa
           }
         }
       }
-    });
+    },
+    QuickNodes);
   std::copy(r + fine.Nodes(), r + fine.Length(), b + coarse.Nodes());
 }
 
@@ -249,7 +251,8 @@ void Restrict(const StencilMatrix& fine, const StencilMatrix& coarse, const floa
 void ProlongAdd(const StencilMatrix& fine, const StencilMatrix& coarse, const float* y, float* x,
   const Execution& execution)
 {
-  ForEachSlab(fine.Size, fine.Size[2], execution,
+  ForEachSlab(
+    fine.Size, fine.Size[2], execution,
     [&](Index k)
     {
       std::vector<float> mean(coarse.Size[0]);
@@ -279,7 +282,8 @@ void ProlongAdd(const StencilMatrix& fine, const StencilMatrix& coarse, const fl
           }
         }
       }
-    });
+    },
+    QuickNodes);
   for (Index p = 0; p < fine.Planes(); ++p)
   {
     x[fine.Nodes() + p] += y[coarse.Nodes() + p];

@@ -38,12 +38,19 @@ public:
     , Options(options)
     , Cells(BoxOfCells(voxels, surface))
   {
+    execution.Check(0.0);
+    execution.ParallelFor(3,
+      [&](Index begin, Index end)
+      {
+        for (Index axis = begin; axis < end; ++axis)
+        {
+          this->Samples[axis] = SamplePlanes(this->Cells, surface, static_cast<int>(axis));
+        }
+      });
     std::vector<Index> sampled;
-    for (int axis = 0; axis < 3; ++axis)
+    for (const PlaneSamples& samples : this->Samples)
     {
-      execution.Check(0.1 * axis);
-      this->Samples[axis] = SamplePlanes(this->Cells, surface, axis);
-      for (const PlaneSample& sample : this->Samples[axis].Samples)
+      for (const PlaneSample& sample : samples.Samples)
       {
         sampled.push_back(sample.Cell);
       }
@@ -101,10 +108,14 @@ public:
     lengths.assign(1, 0.0);
     lengths.insert(lengths.end(), u.begin() + matrix.Nodes(), u.end());
     this->Measure(samples, u, record);
-    for (Index node = 0; node < this->Cells.Nodes(); ++node)
-    {
-      this->Result.Values[3 * node + axis] = u[node];
-    }
+    execution.ParallelFor(this->Cells.Nodes(),
+      [&](Index begin, Index end)
+      {
+        for (Index node = begin; node < end; ++node)
+        {
+          this->Result.Values[3 * node + axis] = u[node];
+        }
+      });
   }
 
   // The frames become the rotations closest to the gradients of what was solved.
