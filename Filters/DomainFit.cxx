@@ -4,6 +4,7 @@
 
 #include "ChainStep.h"
 #include "DomainSamples.h"
+#include "DomainSelection.h"
 #include "SMPExecution.h"
 #include "SegmentPoints.h"
 #include "TSpline/BezierMesh.h"
@@ -17,7 +18,6 @@
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
-#include "vtkIdList.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkPartitionedDataSet.h"
@@ -40,26 +40,6 @@ namespace
 {
 // Where the steps end, as shares of their progress.
 constexpr double Framed = 0.25, Parameterized = 0.85;
-
-//------------------------------------------------------------------------------
-// The cells of a polycube that belong to a segment, over the same points.
-vtkNew<vtkUnstructuredGrid> CubesOf(
-  vtkUnstructuredGrid* polycubes, const std::vector<vtkIdType>& cells)
-{
-  vtkNew<vtkUnstructuredGrid> cubes;
-  cubes->SetPoints(polycubes->GetPoints());
-  cubes->GetPointData()->ShallowCopy(polycubes->GetPointData());
-  cubes->GetCellData()->CopyAllocate(polycubes->GetCellData());
-  cubes->Allocate();
-  for (const vtkIdType cell : cells)
-  {
-    vtkNew<vtkIdList> points;
-    polycubes->GetCellPoints(cell, points);
-    cubes->GetCellData()->CopyData(
-      polycubes->GetCellData(), cell, cubes->InsertNextCell(polycubes->GetCellType(cell), points));
-  }
-  return cubes;
-}
 
 //------------------------------------------------------------------------------
 // Takes parameters from the space of all blocks to that of some of them, `cells` among all.
@@ -90,14 +70,12 @@ void MoveParameters(vtkImageData* image, const BlockComplex& all, const BlockCom
   }
 }
 
-// Zero for the remesher's default of two voxels, or longer where that would fill the image with
-// more cells than are untangled within a minute or two.
-double HexahedronEdge(vtkImageData* image)
+// Of cells, in voxels: two, or longer where more cells would fill the image than are untangled
+// within half a minute.
+double CellLength(vtkImageData* image)
 {
   constexpr double mostCells = 30000.0;
-  const double voxels = std::cbrt(static_cast<double>(image->GetNumberOfPoints()) / mostCells);
-  const double* spacing = image->GetSpacing();
-  return voxels > 2.0 ? voxels * std::cbrt(spacing[0] * spacing[1] * spacing[2]) : 0.0;
+  return std::max(2.0, std::cbrt(static_cast<double>(image->GetNumberOfPoints()) / mostCells));
 }
 }
 
@@ -118,10 +96,12 @@ FilledDomains FillDomains(vtkImageData* image, vtkPolyData* patches, vtkUnstruct
   parameters->SetInputData(0, frames->GetOutputDataObject(0));
   parameters->SetInputData(1, patches);
   parameters->SetInputData(2, polycubes);
+  parameters->SetCellLength(CellLength(image));
   run(parameters, Framed, Parameterized);
 
+  const double* spacing = image->GetSpacing();
   vtkNew<vtkHexRemesh> hexahedra;
-  hexahedra->SetEdgeLength(HexahedronEdge(image));
+  hexahedra->SetEdgeLength(CellLength(image) * std::cbrt(spacing[0] * spacing[1] * spacing[2]));
   hexahedra->SetInputDataObject(0, image);
   hexahedra->SetInputDataObject(1, patches);
   hexahedra->SetInputDataObject(2, polycubes);

@@ -37,7 +37,8 @@ struct FilledDomains
 
 /**
  * What the filters vtkFrameField, vtkVolumeParameterization and vtkHexRemesh make of patches and
- * polycubes, with their defaults. Throws as ChainStep does.
+ * polycubes, with their defaults but for the length of cells: at most 30,000 of them would fill the
+ * image. Throws as ChainStep does.
  */
 FilledDomains FillDomains(vtkImageData* image, vtkPolyData* patches, vtkUnstructuredGrid* polycubes,
   Chain& chain, double from, double to);

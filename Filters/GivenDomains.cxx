@@ -186,6 +186,10 @@ void For(int segment, const Work& work)
 //------------------------------------------------------------------------------
 std::vector<GivenDomain> ReadGivenDomains(vtkUnstructuredGrid* grid)
 {
+  if (!grid)
+  {
+    throw std::invalid_argument("There is no domain: the second input is not connected.");
+  }
   if (grid->GetNumberOfCells() == 0)
   {
     throw std::invalid_argument("The given domain has no cubes.");

@@ -26,9 +26,9 @@ struct GivenDomain
  * The place of a corner is that of the point with its coordinates; if there is an array CornerId,
  * points without one (-1) are no corners. In order of the segments.
  *
- * Throws std::invalid_argument with a sentence for the user, which names the cell or the corner:
- * cells that are no unit cubes of the lattice, cubes that are no Polycube, a corner without a point
- * or with two.
+ * Throws std::invalid_argument with a sentence for the user, which names the cell or the corner: no
+ * grid (null) or no cells, cells that are no unit cubes of the lattice, cubes that are no Polycube,
+ * a corner without a point or with two.
  */
 std::vector<GivenDomain> ReadGivenDomains(vtkUnstructuredGrid* grid);
 

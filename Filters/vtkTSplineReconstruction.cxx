@@ -5,6 +5,7 @@
 #include "ChainStep.h"
 #include "DomainFit.h"
 #include "DomainOutput.h"
+#include "DomainSelection.h"
 #include "FilterRun.h"
 #include "GivenDomains.h"
 #include "ListProperty.h"
@@ -200,20 +201,6 @@ vtkDataArray* vtkTSplineReconstruction::ChosenLabels(vtkImageData* image)
 }
 
 //------------------------------------------------------------------------------
-std::vector<GivenDomain> vtkTSplineReconstruction::GivenDomains(vtkUnstructuredGrid* grid)
-{
-  if (this->Domain != GIVEN)
-  {
-    return {};
-  }
-  if (!grid)
-  {
-    throw std::invalid_argument("There is no domain: the second input is not connected.");
-  }
-  return ReadGivenDomains(grid);
-}
-
-//------------------------------------------------------------------------------
 // One spline over the whole image.
 vtkSmartPointer<vtkTSplineFit> vtkTSplineReconstruction::FitBox(
   vtkImageData* image, Chain& chain, double from, double to)
@@ -238,16 +225,15 @@ vtkSmartPointer<vtkTSplineFit> vtkTSplineReconstruction::FitBox(
 bool vtkTSplineReconstruction::IsBoxBetter(vtkTSplineFit* box, const SegmentFits& segments)
 {
   const double rms = LastRms(vtkTable::SafeDownCast(box->GetOutputDataObject(1)));
+  const vtkIdType points = box->GetOutput()->GetNumberOfPoints(),
+                  others = segments.Model.Spline.Size();
   const bool meetTolerance = std::max(rms, segments.RmsPercent) <= this->RMSTolerance;
-  const bool better = meetTolerance
-                        ? box->GetOutput()->GetNumberOfPoints() <= segments.Model.Spline.Size()
-                        : rms <= segments.RmsPercent;
+  const bool better = meetTolerance ? points <= others : rms <= segments.RmsPercent;
   if (better)
   {
     vtkWarningMacro("One spline stands for all segments: its error is "
-                    << rms << " % at " << box->GetOutput()->GetNumberOfPoints()
-                    << " control points, that of one for each " << segments.RmsPercent << " % at "
-                    << segments.Model.Spline.Size() << ".");
+                    << rms << " % at " << points << " control points, that of one for each "
+                    << segments.RmsPercent << " % at " << others << ".");
   }
   return better;
 }
@@ -255,10 +241,8 @@ bool vtkTSplineReconstruction::IsBoxBetter(vtkTSplineFit* box, const SegmentFits
 //------------------------------------------------------------------------------
 // The domains that were given, or those that are found.
 void vtkTSplineReconstruction::LayOut(vtkPolyData* surfaces, const std::vector<GivenDomain>& given,
-  Chain& chain, vtkInformationVector* outputVector)
+  Chain& chain, vtkPolyData* patches, vtkUnstructuredGrid* polycubes)
 {
-  vtkPolyData* patches = vtkPolyData::GetData(outputVector, PATCHES);
-  vtkUnstructuredGrid* polycubes = vtkUnstructuredGrid::GetData(outputVector, POLYCUBES);
   if (given.empty())
   {
     vtkNew<vtkPolycubeDomain> domain;
@@ -269,6 +253,7 @@ void vtkTSplineReconstruction::LayOut(vtkPolyData* surfaces, const std::vector<G
     patches->ShallowCopy(domain->GetPatches());
     polycubes->ShallowCopy(domain->GetPolycube());
     this->Warn(layOut.Warnings());
+    this->Warn(LeaveOutInverted(patches, polycubes));
     return;
   }
   const LabelledSurface surface = ReadSurface(surfaces);
@@ -286,16 +271,20 @@ FilledDomains vtkTSplineReconstruction::Fill(vtkImageData* segments, vtkPolyData
   const std::vector<GivenDomain>& given, Chain& chain, vtkInformationVector* outputVector)
 {
   FilledDomains domains;
+  vtkPolyData* patches = vtkPolyData::GetData(outputVector, PATCHES);
+  vtkUnstructuredGrid* polycubes = vtkUnstructuredGrid::GetData(outputVector, POLYCUBES);
   bool isLaidOut = false;
   try
   {
-    this->LayOut(surfaces, given, chain, outputVector);
+    this->LayOut(surfaces, given, chain, patches, polycubes);
     isLaidOut = true;
-    domains = FillDomains(segments, vtkPolyData::GetData(outputVector, PATCHES),
-      vtkUnstructuredGrid::GetData(outputVector, POLYCUBES), chain, LaidOut, Filled);
-    vtkUnstructuredGrid::GetData(outputVector, POLYCUBES)->ShallowCopy(domains.Polycubes);
-    vtkImageData::GetData(outputVector, FIELDS)->ShallowCopy(domains.Fields);
-    vtkUnstructuredGrid::GetData(outputVector, HEXAHEDRA)->ShallowCopy(domains.Hexahedra);
+    if (polycubes->GetNumberOfCells() > 0)
+    {
+      domains = FillDomains(segments, patches, polycubes, chain, LaidOut, Filled);
+      polycubes->ShallowCopy(domains.Polycubes);
+      vtkImageData::GetData(outputVector, FIELDS)->ShallowCopy(domains.Fields);
+      vtkUnstructuredGrid::GetData(outputVector, HEXAHEDRA)->ShallowCopy(domains.Hexahedra);
+    }
   }
   catch (const std::runtime_error& reason)
   {
@@ -378,10 +367,10 @@ void vtkTSplineReconstruction::FitParts(vtkImageData* image, bool labelled,
   std::vector<std::string> why;
   vtkTable* rounds = vtkTable::GetData(outputVector, ROUNDS);
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector, TSPLINE);
-  const bool compared = this->Domain == AUTOMATIC;
-  const SegmentFits fits = FitSegments(
-    segments, options, rounds, why, chain, this->GetProgress(), compared ? AllFitted : 1.0);
-  if (compared)
+  const double end = this->Domain == AUTOMATIC ? AllFitted : 1.0;
+  const SegmentFits fits =
+    FitSegments(segments, options, rounds, why, chain, this->GetProgress(), end);
+  if (end < 1.0)
   {
     const auto box = this->FitBox(image, chain, AllFitted, 1.0);
     if (this->IsBoxBetter(box, fits))
@@ -425,8 +414,13 @@ int vtkTSplineReconstruction::RequestData(
       else
       {
         vtkDataArray* labels = this->ChosenLabels(input);
-        this->FitParts(MakeImage(input, arrays, labels), labels != nullptr,
-          this->GivenDomains(vtkUnstructuredGrid::GetData(inputVector[1])), chain, outputVector);
+        std::vector<GivenDomain> given;
+        if (this->Domain == GIVEN)
+        {
+          given = ReadGivenDomains(vtkUnstructuredGrid::GetData(inputVector[1]));
+        }
+        this->FitParts(
+          MakeImage(input, arrays, labels), labels != nullptr, given, chain, outputVector);
       }
       WriteSeconds(chain, vtkTable::GetData(outputVector, ROUNDS));
       return 1;

@@ -17,8 +17,9 @@
  * fitted over the whole image, and if it is more accurate than all segments together (or, where
  * both meet the tolerance, has fewer control points), it is the result, and a warning says so. With
  * Domain GIVEN the segments with a domain in the second input are fitted over that. A warning tells
- * why a segment with a domain stays with its box: no cubes, folds, voxels that are missed. Up to 2
- * % of the voxels may be missed; these are counted to the lowest segment.
+ * why a segment with a domain stays with its box: half or more of the blocks that were found are
+ * inverted between their corners, folds, voxels that are missed. Up to 2 % of the voxels may be
+ * missed; these are counted to the lowest segment.
  *
  * @par Input
  * Port 0: a vtkImageData with two or more points along each axis. The point array to fit is chosen
@@ -46,9 +47,10 @@
  * Port 4: vtkPolyData, patches, of vtkPolycubeDomain. Port 5: vtkUnstructuredGrid, polycubes, and
  * port 6: vtkImageData, fields, both of vtkVolumeParameterization (frames, Parameter,
  * ParameterMask, Block; without domains the image of port 2). Port 7: vtkUnstructuredGrid,
- * hexahedra of vtkHexRemesh, two voxels long, or as long as 30,000 of them fill the image if that
- * is more; with the field data InvertedCells (double x 2, before and after repair) and
- * ScaledJacobian (double x 2, least and mean).
+ * hexahedra of vtkHexRemesh. Those and the block meshes behind the parameters have cells two voxels
+ * long, or as long as 30,000 of them fill the image if that is more. With the field data
+ * InvertedCells (double x 2, before and after repair) and ScaledJacobian (double x 2, least and
+ * mean).
  *
  * @par Cost
  * The sum of the steps; memory that of the most expensive one. Threaded with vtkSMPTools; the
@@ -183,7 +185,6 @@ private:
 
   std::vector<vtkDataArray*> ChosenArrays(vtkImageData* image);
   vtkDataArray* ChosenLabels(vtkImageData* image);
-  std::vector<trivariate::GivenDomain> GivenDomains(vtkUnstructuredGrid* grid);
   vtkSmartPointer<vtkTSplineFit> FitBox(
     vtkImageData* image, trivariate::Chain& chain, double from, double to);
   bool IsBoxBetter(vtkTSplineFit* box, const trivariate::SegmentFits& segments);
@@ -195,7 +196,7 @@ private:
     const std::vector<trivariate::GivenDomain>& given, trivariate::Chain& chain,
     vtkInformationVector* outputVector);
   void LayOut(vtkPolyData* surfaces, const std::vector<trivariate::GivenDomain>& given,
-    trivariate::Chain& chain, vtkInformationVector* outputVector);
+    trivariate::Chain& chain, vtkPolyData* patches, vtkUnstructuredGrid* polycubes);
   void Warn(const std::vector<std::string>& warnings);
 
   int Domain = SEGMENTS;

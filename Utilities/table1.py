@@ -135,4 +135,5 @@ def main():
             print_row(model, int(count), which, options.save)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -178,15 +178,31 @@ Vector3d GaussPoint(int i)
 
 double LeastDeterminant(const std::vector<Vector3d>& places, const BlockPoints& cell)
 {
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 8; ++i)
+  // How each corner's weight changes at the corners and the Gauss points.
+  using Gradients = Eigen::Matrix<double, 8, 3>;
+  static const std::array<Gradients, 8 + 27> gradients = []()
   {
-    const Vector3d t(i % 2, i / 2 % 2, i / 4);
-    least = std::min(least, JacobianAt(places, cell, t).determinant());
+    std::array<Gradients, 8 + 27> all;
+    for (int i = 0; i < 8 + 27; ++i)
+    {
+      const Vector3d t = i < 8 ? Vector3d(i % 2, i / 2 % 2, i / 4) : GaussPoint(i - 8);
+      for (int corner = 0; corner < 8; ++corner)
+      {
+        all[i].row(corner) = ShapeGradient(corner, t);
+      }
+    }
+    return all;
+  }();
+  Eigen::Matrix<double, 3, 8> corners;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    corners.col(corner) = places[cell[corner]];
   }
-  for (int i = 0; i < 27; ++i)
+  double least = std::numeric_limits<double>::infinity();
+  for (const Gradients& gradient : gradients)
   {
-    least = std::min(least, JacobianAt(places, cell, GaussPoint(i)).determinant());
+    const Matrix3d jacobian = corners.lazyProduct(gradient);
+    least = std::min(least, jacobian.determinant());
   }
   return least;
 }

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 namespace trivariate
 {
@@ -28,8 +29,8 @@ constexpr double LongestStep = 1.0;      // in wanted lengths
 constexpr double Sharp = 1e-8;           // the regularisation where nothing is inverted
 constexpr double BluntestAtFirst = 0.01; // regularisation of flat cells, times
 constexpr double Sharpening = 0.93;      // this with each sweep,
-constexpr int Spreads = 3;               // sweeps then
-constexpr int SharpenFor = 100;          // and so often, then from the start
+constexpr int SweepsOfRound = 100;       // then from the start, first with
+constexpr int Spreads = 3;               // sweeps that spread nodes
 constexpr double Flat = 0.01;            // a determinant so small is treated as if it were inverted
 constexpr int WholeSweeps = 20;          // before only nodes near inverted cells move,
 constexpr int WholeEvery = 4;            // but for some sweeps
@@ -42,6 +43,11 @@ constexpr int Rings = 3;                 // of cells around those
 double Regularisation(double least, double bluntest)
 {
   return least > Flat ? Sharp : std::hypot(bluntest, 0.2 * std::min(least, 0.0));
+}
+
+bool IsActive(const BlockPoints& cell, const std::vector<char>& active)
+{
+  return std::any_of(cell.begin(), cell.end(), [&active](Index node) { return active[node]; });
 }
 
 class Sweeper
@@ -68,8 +74,8 @@ public:
   /// Only nodes in some rings around cells that are inverted; or all of them.
   void Activate(bool all);
 
-  /// Over all corners, of targets.
-  double LeastDeterminant(const Execution& execution);
+  Index CountInverted(const Execution& execution);
+  Index CountCells() const { return static_cast<Index>(this->Cells.Cells.size()); }
 
   double Energy(double epsilon, const Execution& execution) const;
 
@@ -273,7 +279,7 @@ void Sweeper::Activate(bool all)
     const std::vector<char> before = this->Active;
     for (const BlockPoints& cell : this->Cells.Cells)
     {
-      if (std::any_of(cell.begin(), cell.end(), [&before](Index node) { return before[node]; }))
+      if (IsActive(cell, before))
       {
         for (const Index node : cell)
         {
@@ -284,20 +290,24 @@ void Sweeper::Activate(bool all)
   }
 }
 
-double Sweeper::LeastDeterminant(const Execution& execution)
+Index Sweeper::CountInverted(const Execution& execution)
 {
-  execution.ParallelFor(static_cast<Index>(this->Determinants.size()),
+  execution.ParallelFor(this->CountCells(),
     [&](Index begin, Index end)
     {
       for (Index c = begin; c < end; ++c)
       {
-        const double target = this->Targets[this->Cells.BlockOf[c]].prod();
-        this->Determinants[c] =
-          trivariate::LeastDeterminant(this->Mesh.Places, this->Cells.Cells[c]) / target;
-        this->Twisted[c] = this->Twisted[c] || this->Determinants[c] <= 0.0;
+        if (IsActive(this->Cells.Cells[c], this->Active)) // else none of its nodes has moved
+        {
+          const double target = this->Targets[this->Cells.BlockOf[c]].prod();
+          this->Determinants[c] =
+            LeastDeterminant(this->Mesh.Places, this->Cells.Cells[c]) / target;
+          this->Twisted[c] = this->Twisted[c] || this->Determinants[c] <= 0.0;
+        }
       }
     });
-  return *std::min_element(this->Determinants.begin(), this->Determinants.end());
+  return std::count_if(this->Determinants.begin(), this->Determinants.end(),
+    [](double determinant) { return determinant <= 0.0; });
 }
 
 double Sweeper::Energy(double epsilon, const Execution& execution) const
@@ -363,23 +373,47 @@ void Repair(BlockMesh& mesh, SlidingNodes& sliding, BoundaryFit& fit,
   const std::vector<Vector3d>& targets, const RepairOptions& options, const Execution& execution)
 {
   Sweeper sweeper(mesh, sliding, fit, targets, options);
-  const double all = options.MostUntangling + options.MostSmoothing;
+  // What the best round ended with.
+  struct Kept
+  {
+    Index Inverted;
+    std::vector<Vector3d> Places;
+    SlidingNodes Sliding;
+  };
+  std::optional<Kept> kept;
+  const int mostUntangling = options.MostRounds * SweepsOfRound;
+  const double all = mostUntangling + options.MostSmoothing;
   double energy = std::numeric_limits<double>::infinity();
-  for (int sweep = 0, untangling = 0, smoothing = 0; untangling < options.MostUntangling; ++sweep)
+  for (int sweep = 0, untangling = 0, smoothing = 0;; ++sweep)
   {
     const double done = (untangling + smoothing) / all;
     if (sweep % AssignEvery == 0)
     {
       fit.Assign(mesh.Places, execution);
     }
-    const double least = sweeper.LeastDeterminant(execution);
-    if (least <= 0.0)
+    const Index inverted = sweeper.CountInverted(execution);
+    const int since = untangling % SweepsOfRound;
+    if (inverted > 0 && untangling > 0 && since == 0)
+    {
+      if (!kept || inverted < kept->Inverted)
+      {
+        kept = Kept{ inverted, mesh.Places, sliding };
+      }
+      const double most = options.MostInverted * double(sweeper.CountCells());
+      if (untangling >= mostUntangling || double(inverted) > most)
+      {
+        mesh.Places = std::move(kept->Places);
+        sliding = std::move(kept->Sliding);
+        break;
+      }
+    }
+    if (inverted > 0)
     {
       // Where folds stay, the nodes around them may leave the surface uncovered.
-      const bool late = untangling > options.MostUntangling / 3;
+      const bool late = untangling >= SweepsOfRound;
       sweeper.Fitting = late ? LateFitting * options.Fitting : options.Fitting;
       sweeper.Activate(untangling < WholeSweeps || (!late && untangling % WholeEvery == 0));
-      sweeper.Bluntest = BluntestAtFirst * std::pow(Sharpening, untangling % SharpenFor);
+      sweeper.Bluntest = BluntestAtFirst * std::pow(Sharpening, since);
       ++untangling;
     }
     else
@@ -395,8 +429,8 @@ void Repair(BlockMesh& mesh, SlidingNodes& sliding, BoundaryFit& fit,
       energy = now;
       ++smoothing;
     }
-    const int since = untangling % SharpenFor;
-    sweeper.Sweep(least <= 0.0 && untangling >= SharpenFor && since < Spreads, done, execution);
+    const bool spreading = inverted > 0 && untangling > SweepsOfRound && since < Spreads;
+    sweeper.Sweep(spreading, done, execution);
   }
 }
 }

@@ -11,10 +11,11 @@ namespace trivariate
 {
 struct RepairOptions
 {
-  int MostUntangling = 400; ///< sweeps over all nodes as long as cells are inverted
-  int MostSmoothing = 40;   ///< sweeps afterwards
-  double Fitting = 1000.0;  ///< the weight of BoundaryFit
-  double Evenness = 1.0;    ///< the weight of equal volumes beside that of right angles
+  int MostRounds = 4;          ///< of 100 sweeps each, as long as cells are inverted
+  double MostInverted = 0.005; ///< of the cells after a round, or there is no further one
+  int MostSmoothing = 40;      ///< sweeps afterwards
+  double Fitting = 1000.0;     ///< the weight of BoundaryFit
+  double Evenness = 1.0;       ///< the weight of equal volumes beside that of right angles
   double Settled = 1e-3; ///< smoothing ends when a sweep lowers the energy by less than this share
 };
 
@@ -33,9 +34,10 @@ CellQuality QualityOf(const BlockMesh& mesh, const Execution& execution);
 /**
  * Moves the nodes of a mesh, each as SlidingNodes lets it, one after the other, to lower the sum of
  * CornerEnergy over the corners of all cells: first with a regularisation that shrinks until no
- * cell is inverted, then to make them even. Nodes of one colour move at a time, so that the result
- * does not depend on threads. Each move is a Newton step with a line search. targets: of each
- * block, the wanted lengths of its cells.
+ * cell is inverted, and starts anew with each round, then to make them even. Where cells stay
+ * inverted, the mesh is that of the round with the fewest. Nodes of one colour move at a time, so
+ * that the result does not depend on threads. Each move is a Newton step with a line search.
+ * targets: of each block, the wanted lengths of its cells.
  */
 void Repair(BlockMesh& mesh, SlidingNodes& sliding, BoundaryFit& fit,
   const std::vector<Eigen::Vector3d>& targets, const RepairOptions& options,

@@ -29,6 +29,13 @@ SegmentDomain LaidOut(const Polycube& cubes, double size, int n)
   return DomainFromCorners(mesh, cubes, corners, Execution());
 }
 
+// Its first two axes change places.
+void Mirror(DomainBlock& block)
+{
+  std::swap(block.Points[1], block.Points[3]);
+  std::swap(block.Points[5], block.Points[7]);
+}
+
 double VolumeOf(const SurfaceMesh& mesh)
 {
   double volume = 0.0;
@@ -265,6 +272,44 @@ TEST(BlockMeshing, HasRightAnglesWhereLayersAreAsDeepAsCellsAreLong)
       depth += (mesh.Places[high[i]] - mesh.Places[low[i]]).norm() / low.size();
     }
     EXPECT_NEAR(depth, 3.0, 0.6);
+  }
+}
+
+// A left-handed block, and sharp edges that hold it so.
+TEST(BlockMeshing, GivesUpOnHopelessBlocks)
+{
+  const SegmentDomain cube = LaidOut(Polycube::FromGrid({ 1, 1, 1 }, {}), 10.0, 6);
+  DomainBlocks blocks = CubeBlocks(cube);
+  Mirror(blocks.Blocks[0]);
+  BlockMeshOptions options;
+  options.CellsPerBlock = 4; // one level
+  Watch watch;
+  BlockMeshReport report;
+  MakeBlockMesh(DomainOfSegment(blocks, cube), options, watch.Until(2.0), &report);
+  EXPECT_GT(report.End.Inverted, 32);
+  EXPECT_LT(watch.Progress, 0.4); // one round of the four
+}
+
+// Rounds begin by spreading nodes; what that makes of the best mesh is not left behind.
+TEST(BlockMeshing, KeepsTheRoundWithTheFewestFolds)
+{
+  const SurfaceMesh surface =
+    Moved(Icosphere(3), [](const Vector3d& p) { return Vector3d(10.0 * p); });
+  const SegmentDomain ball = FindDomain(surface, DomainOptions(), Execution());
+  DomainBlocks blocks = LayeredBlocks(ball, 2.5, Execution());
+  Mirror(blocks.Blocks[3]);
+  const BlockDomain domain = DomainOfSegment(blocks, ball);
+  BlockMeshOptions options;
+  options.CellsPerBlock = 4;
+  options.Repair.MostInverted = 1.0;
+  Index fewest = 64; // a block's cells
+  for (const int rounds : { 1, 2, 3 })
+  {
+    options.Repair.MostRounds = rounds;
+    BlockMeshReport report;
+    MakeBlockMesh(domain, options, Execution(), &report);
+    EXPECT_LE(report.End.Inverted, fewest);
+    fewest = report.End.Inverted;
   }
 }
 

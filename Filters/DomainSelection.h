@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// Some of the domains that vtkPolycubeDomain has found.
+#ifndef DomainSelection_h
+#define DomainSelection_h
+
+#include "vtkNew.h"
+#include "vtkType.h"
+
+#include <string>
+#include <vector>
+
+class vtkPolyData;
+class vtkUnstructuredGrid;
+
+namespace trivariate
+{
+/// Cells of polycubes, over the same points.
+vtkNew<vtkUnstructuredGrid> CubesOf(
+  vtkUnstructuredGrid* polycubes, const std::vector<vtkIdType>& cells);
+
+/**
+ * Takes the segments out of which half of the blocks or more are inverted or flat between their
+ * corners: their block meshes would keep folds after minutes. Sentences say which and why.
+ */
+std::vector<std::string> LeaveOutInverted(vtkPolyData* patches, vtkUnstructuredGrid* polycubes);
+}
+
+#endif
