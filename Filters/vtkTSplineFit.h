@@ -14,7 +14,9 @@
  * them, one spline is fitted over all blocks of the domain. X, Y, Z become functions of (u, v, w)
  * whose faces lie on the surface of the segments, wherever on it, on the coarsest net that puts
  * them there, and later splits carry them along; every voxel takes the parameters at which this
- * shape passes through it, and the attributes are fitted there. Blocks of one group are joined C2;
+ * shape passes through it, and the attributes are fitted there. With block meshes the shape then
+ * moves, its surface held, to where the errors of the attributes want it, and these are fitted
+ * again, in turns and as long as that lowers the error. Blocks of one group are joined C2;
  * across other common faces the control points are the same on both sides, so there is no gap.
  *
  * @par Input

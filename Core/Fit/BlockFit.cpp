@@ -3,7 +3,9 @@
 #include "BlockFit.h"
 
 #include "BlockFitInput.h"
+#include "DataPull.h"
 #include "FitSteps.h"
+#include "RefinementHistory.h"
 #include "RefinementMarks.h"
 #include "ScatteredSystem.h"
 #include "ShapeInverse.h"
@@ -34,6 +36,18 @@ constexpr int RoundSteps = 3;
 // Stiffness of all cells of a shape whose surface slides: little enough to bend as the surface
 // does, enough to be smooth inside where the block mesh is not.
 constexpr float Stiffness = 2e-6f;
+
+// How often the shape follows the attributes' errors, and how far each time: longer than the errors
+// at fixed attributes ask for, for these give way in turn. The barrier (see ShapeSolver.h), large
+// at first to open cells that nearly fold, becomes less with each step.
+constexpr int MostFollows = 10;
+constexpr int FollowSteps = 4; // of the shape
+constexpr double FollowFactor = 4.0;
+constexpr double FollowBarrier = 0.03, LeastFollowBarrier = 3e-5;
+
+// What the squared error of a voxel in parts of the range counts: of a hundredth as much as a
+// sample of the held surface (see ShapeTarget.h) that is off by 0.014 voxels.
+constexpr float DataWeight = 3000.0f;
 
 // One stage: some components are fitted to some samples, and the spline is refined for them.
 struct Stage
@@ -79,13 +93,13 @@ public:
 
   BlockFitResult Fit()
   {
-    this->FitShape();
+    ShapeTarget target(this->Blocks, this->Shape, Margin * this->Options.Spacing);
+    this->FitShape(target);
     ScatteredSamples samples;
-    samples.Parameters = this->FindParameters();
     samples.Components = this->Voxels.Components;
     samples.Values = this->Voxels.Values;
-    this->Lap("parameters");
-    this->FitAttributes(samples);
+    samples.Parameters = this->FindParameters(this->Result.Spline);
+    this->FitAttributes(samples, target);
     const SharedPoints shared = this->Layout.Share(this->Result.Spline);
     this->Result.PointOf = shared.PointOf;
     this->Result.ControlPoints = shared.Count();
@@ -113,9 +127,8 @@ private:
 
   void Lap(const char* topic) { this->Time.Lap(topic); }
 
-  void FitShape()
+  void FitShape(ShapeTarget& target)
   {
-    ShapeTarget target(this->Blocks, this->Shape, Margin * this->Options.Spacing);
     ScatteredSystem system(target.Samples(), 0, this->Layout, this->Run);
     Stage stage{ system, 0, std::vector<double>(3, 1.0), this->Options.ShapeTolerance, 0.0,
       std::min(this->Options.MaximumShapePoints, this->Options.MaximumControlPoints), &target };
@@ -161,8 +174,11 @@ private:
     }
   }
 
-  void FitAttributes(const ScatteredSamples& samples)
+  void FitAttributes(ScatteredSamples& samples, ShapeTarget& target)
   {
+    const TSpline shape = this->Result.Spline;
+    const std::unique_ptr<RefinementRule> rule = this->Rule->Clone();
+    this->Rule = std::make_unique<RefinementHistory>(std::move(this->Rule));
     ScatteredSystem system(samples, 3, this->Layout, this->Run);
     Stage stage{ system, 3, {}, this->Options.RmsTolerance, this->Options.MaximumErrorTolerance,
       this->Options.MaximumControlPoints, nullptr };
@@ -171,6 +187,71 @@ private:
       stage.Scales.push_back(system.Range(c));
     }
     this->Adapt(stage);
+    if (target.Slides() && !this->IsGoodEnough(stage))
+    {
+      this->FollowData(stage, samples, target, shape, *rule);
+    }
+  }
+
+  // Moves the shape, on its own net, to where the errors of the attributes want it, and fits these
+  // again. What makes the fit worse, or folds, is taken back.
+  void FollowData(Stage& stage, ScatteredSamples& samples, ShapeTarget& target, TSpline shape,
+    const RefinementRule& rule)
+  {
+    const auto& history = static_cast<const RefinementHistory&>(*this->Rule);
+    double barrier = FollowBarrier;
+    for (int follow = 0; follow < MostFollows && barrier >= LeastFollowBarrier; ++follow)
+    {
+      const BlockFitResult before = this->Result;
+      const std::vector<double> parameters = samples.Parameters;
+      TSpline moved = shape;
+      this->MoveToData(stage, samples, barrier, target, moved);
+      samples.Parameters = this->FindParameters(moved);
+      this->Result.Spline = moved;
+      history.Repeat(rule, this->Result.Spline);
+      for (Index i = 0; i < before.Spline.Size(); ++i)
+      {
+        std::copy_n(before.Spline.ControlPoint(i) + 3, samples.Components,
+          this->Result.Spline.ControlPoint(i) + 3);
+      }
+      this->Update(stage);
+      stage.System.ComputeResiduals(this->Result.Spline);
+      this->Solve(stage, FinalTolerance, FinalIterations);
+      this->Measure(stage);
+      const bool folds = this->Result.FoldedCells > before.FoldedCells;
+      if (folds || this->Result.Rounds.back().Rms >= before.Rounds.back().Rms)
+      {
+        this->Result = before;
+        samples.Parameters = parameters;
+        barrier *= folds ? 10.0 : 0.1;
+        continue;
+      }
+      shape = std::move(moved);
+      barrier *= 0.5;
+      this->Result.ShapeRms = target.Distance().Rms;
+      this->Result.ShapeMaximum = target.Distance().Maximum;
+    }
+  }
+
+  void MoveToData(const Stage& stage, const ScatteredSamples& samples, double barrier,
+    ShapeTarget& target, TSpline& shape)
+  {
+    DataPull pull = PullToData(
+      this->Result.Spline, samples, stage.Scales, this->Options.Spacing, FollowFactor, this->Run);
+    for (float& weight : pull.Weights)
+    {
+      weight *= DataWeight;
+    }
+    target.Follow(samples.Parameters, pull.Places, pull.Weights);
+    ScatteredSystem system(target.Samples(), 0, this->Layout, this->Run);
+    system.Update(shape);
+    ShapeSolverOptions options;
+    options.Spacing = this->Options.Spacing;
+    options.FirstBarrier = options.LastBarrier = barrier;
+    options.MostSteps = FollowSteps;
+    SolveShape(shape, system, target, options, this->Run);
+    target.Release();
+    this->Lap("follow");
   }
 
   void Adapt(Stage& stage)
@@ -308,22 +389,25 @@ private:
     return isRefined;
   }
 
-  std::vector<double> FindParameters()
+  // Where the voxels are on a shape; keeps what there is to know about it.
+  std::vector<double> FindParameters(const TSpline& shape)
   {
-    const BezierMesh mesh(this->Result.Spline, this->Run);
+    const BezierMesh mesh(shape, this->Run);
     const std::vector<double>& starts = this->Voxels.Parameters;
     FoundParameters found = FindParametersOnShape(
-      this->Result.Spline, mesh, this->Blocks, this->Voxels.Places, starts, this->Shape, this->Run);
+      shape, mesh, this->Blocks, this->Voxels.Places, starts, this->Shape, this->Run);
     this->Result.VoxelsInside = found.Inside;
-    auto [least, mean] = JacobianAt(this->Result.Spline, mesh, found.Parameters, this->Run);
-    for (const CellJacobian& cell : BoundJacobian(this->Result.Spline, mesh, this->Run))
+    auto [least, mean] = JacobianAt(shape, mesh, found.Parameters, this->Run);
+    this->Result.ShapeCells = mesh.Size();
+    this->Result.FoldedCells = this->Result.CertifiedCells = 0;
+    for (const CellJacobian& cell : BoundJacobian(shape, mesh, this->Run))
     {
       least = std::min(least, cell.Sampled);
       this->Result.FoldedCells += cell.Sampled <= 0.0;
       this->Result.CertifiedCells += cell.Certified;
     }
-    this->Result.ShapeCells = mesh.Size();
     this->Result.SmallestJacobian = least / mean;
+    this->Lap("parameters");
     return std::move(found.Parameters);
   }
 

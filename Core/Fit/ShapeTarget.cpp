@@ -15,7 +15,7 @@ namespace trivariate
 namespace
 {
 // Of samples on the surface; one inside has one.
-constexpr float SurfaceWeight = 25.0f;
+constexpr float SurfaceWeight = 25.0f, HeldWeight = 1600.0f;
 }
 
 //------------------------------------------------------------------------------
@@ -57,7 +57,11 @@ ShapeTarget::ShapeTarget(const BlockComplex& blocks, const ShapeSamples& shape, 
   for (Index i = 0; i < n; ++i)
   {
     const auto keys = this->SheetsAt(blocks, &shape.Parameters[3 * i]);
-    this->Targets.Weights.push_back(keys.empty() ? 1.0f : SurfaceWeight);
+    this->Targets.Weights.push_back(1.0f);
+    if (!keys.empty())
+    {
+      this->OnSurface.push_back(i);
+    }
     const auto sheet = keys.size() == 1 ? this->Sheets.find(keys[0]) : this->Sheets.end();
     this->SheetOf.push_back(sheet == this->Sheets.end() ? nullptr : &sheet->second);
     const Eigen::Vector3d target =
@@ -67,6 +71,8 @@ ShapeTarget::ShapeTarget(const BlockComplex& blocks, const ShapeSamples& shape, 
       this->Targets.Values[a * n + i] = target[a];
     }
   }
+  this->WeighSurface(SurfaceWeight);
+  this->Own = n;
   this->Distances.Rms = this->Distances.Maximum = std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -105,9 +111,37 @@ Eigen::Vector3d ShapeTarget::NearestTarget(const Sheet& sheet, const Eigen::Vect
 }
 
 //------------------------------------------------------------------------------
+void ShapeTarget::WeighSurface(float weight)
+{
+  for (const Index i : this->OnSurface)
+  {
+    this->Targets.Weights[i] = weight;
+  }
+}
+
+//------------------------------------------------------------------------------
 void ShapeTarget::Pull(const std::vector<double>& parameters, const std::vector<double>& places)
 {
-  const Index before = this->Targets.Count(), more = static_cast<Index>(parameters.size() / 3);
+  this->Add(parameters, places, std::vector<float>(parameters.size() / 3, SurfaceWeight));
+  for (; this->Own < this->Targets.Count(); ++this->Own)
+  {
+    this->OnSurface.push_back(this->Own);
+  }
+}
+
+//------------------------------------------------------------------------------
+void ShapeTarget::Follow(const std::vector<double>& parameters, const std::vector<double>& places,
+  const std::vector<float>& weights)
+{
+  this->WeighSurface(HeldWeight);
+  this->Add(parameters, places, weights);
+}
+
+//------------------------------------------------------------------------------
+void ShapeTarget::Add(const std::vector<double>& parameters, const std::vector<double>& places,
+  const std::vector<float>& weights)
+{
+  const Index before = this->Targets.Count(), more = static_cast<Index>(weights.size());
   std::vector<double> values;
   for (int a = 0; a < 3; ++a)
   {
@@ -121,8 +155,24 @@ void ShapeTarget::Pull(const std::vector<double>& parameters, const std::vector<
   this->Targets.Values = std::move(values);
   std::vector<double>& all = this->Targets.Parameters;
   all.insert(all.end(), parameters.begin(), parameters.end());
-  this->Targets.Weights.resize(before + more, SurfaceWeight);
+  this->Targets.Weights.insert(this->Targets.Weights.end(), weights.begin(), weights.end());
   this->SheetOf.resize(before + more, nullptr);
+}
+
+//------------------------------------------------------------------------------
+void ShapeTarget::Release()
+{
+  const Index before = this->Targets.Count();
+  for (int a = 0; a < 3; ++a)
+  {
+    const auto begin = this->Targets.Values.begin() + a * before;
+    std::copy(begin, begin + this->Own, this->Targets.Values.begin() + a * this->Own);
+  }
+  this->Targets.Values.resize(3 * this->Own);
+  this->Targets.Parameters.resize(3 * this->Own);
+  this->Targets.Weights.resize(this->Own);
+  this->SheetOf.resize(this->Own);
+  this->WeighSurface(SurfaceWeight);
 }
 
 //------------------------------------------------------------------------------
@@ -151,20 +201,17 @@ void ShapeTarget::Slide(const TSpline& spline, const BezierMesh& mesh, const Exe
       }
     });
   double squares = 0.0, largest = 0.0, count = 0.0;
-  for (Index i = 0; i < n; ++i)
+  for (const Index i : this->OnSurface)
   {
-    if (this->Targets.Weights[i] == SurfaceWeight)
+    double square = 0.0;
+    for (int a = 0; a < 3; ++a)
     {
-      double square = 0.0;
-      for (int a = 0; a < 3; ++a)
-      {
-        const double d = places[3 * i + a] - this->Targets.Values[a * n + i];
-        square += d * d;
-      }
-      squares += square;
-      largest = std::max(largest, square);
-      count += 1.0;
+      const double d = places[3 * i + a] - this->Targets.Values[a * n + i];
+      square += d * d;
     }
+    squares += square;
+    largest = std::max(largest, square);
+    count += 1.0;
   }
   this->Distances = { std::sqrt(squares / count), std::sqrt(largest) };
 }
