@@ -168,6 +168,7 @@ BlockMesh RefineBlockMesh(const BlockDomain& domain, const BlockMesh& mesh,
   BoundaryFit fit(surface, refined);
   const CellQuality before = QualityOf(refined, execution);
   RepairOptions repair = options.Repair;
+  repair.MostRounds = 1; // what folds stayed in the mesh would stay again
   repair.MostSmoothing = before.Inverted > 0 ? repair.MostSmoothing : 0;
   Repair(refined, sliding, fit, CellTargets(refined), repair, execution);
   if (report)
