@@ -13,15 +13,16 @@
 #   --tolerance T       stop when the RMS error is at most T percent of the array's range;
 #                       default is 0.1, or no limit when --control-points is given
 #   --control-points N  stop before there are more than N control points; default is 50000
-#   --segments K        also split the volume into K materials by texture and density (0: as many as
-#                       it seems to have), and write segments.vti, boundary.vtp and segments.png;
-#                       and, of segments for which there is a domain of cubes, patches.vtp,
-#                       domain.vtu, fields.vti and hexmesh.vtu
-#   --domain WHICH      box, the default: one spline over the whole image; segments: a spline for each
-#                       of the K materials over its bounding box, together still one T-spline that
-#                       stands for every voxel; auto: over the cubes of its domain where that is
-#                       more accurate, or as with box if that is better still; or a file with the
-#                       cubes and corners of some segments: a domain.vtu, or a .json file
+#   --segments K        split the volume into K materials by texture and density; default is 0, as
+#                       many as it seems to have. That writes segments.vti, boundary.vtp and
+#                       segments.png; and, of segments for which there is a domain of cubes,
+#                       patches.vtp, domain.vtu, fields.vti and hexmesh.vtu
+#   --domain WHICH      auto, the default: a spline for each of the K materials over the cubes of its
+#                       domain, or over its bounding box where that is more accurate, together still
+#                       one T-spline that stands for every voxel; or one spline over the whole image
+#                       if that is better still; segments: over the bounding boxes; box: over the
+#                       whole image, without materials unless --segments is given; or a file with
+#                       the cubes and corners of some segments: a domain.vtu, or a .json file
 #                       (Documentation/UserGuide.md)
 set -euo pipefail
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)

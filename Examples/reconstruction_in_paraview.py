@@ -7,8 +7,8 @@ from paraview.simple import *
 ball = Calculator(Input=Wavelet(WholeExtent=[-14, 14] * 3), ResultArrayName="Density",
                   Function="if(mag(coords) < 9.3, 200 + 10 * sin(coordsX / 2), coordsZ)")
 reconstruction = TSplineReconstruction(Input=ball, Scalars=["POINTS", "Density"],
-                                       NumberOfSegments=2, MaximumNumberOfControlPoints=1000,
-                                       RMSTolerance=0.05)
+                                       NumberOfSegments=2, Domain="Segments",
+                                       MaximumNumberOfControlPoints=1000, RMSTolerance=0.05)
 SaveData("ball.tspline", proxy=reconstruction)
 
 # The segmented image tells whose spline counts at a point.

@@ -116,7 +116,7 @@ public:
 
   ///@{
   /**
-   * Over what is fitted. Default is SEGMENTS.
+   * Over what is fitted. Default is AUTOMATIC.
    */
   vtkSetClampMacro(Domain, int, BOX, GIVEN);
   vtkGetMacro(Domain, int);
@@ -199,7 +199,7 @@ private:
     trivariate::Chain& chain, vtkPolyData* patches, vtkUnstructuredGrid* polycubes);
   void Warn(const std::vector<std::string>& warnings);
 
-  int Domain = SEGMENTS;
+  int Domain = AUTOMATIC;
   int NumberOfSegments = 0;
   int MaximumNumberOfControlPoints = 50000;
   double RMSTolerance = 0.1;

@@ -307,7 +307,7 @@ def main():
     parser.add_argument("--tolerance", type=float)
     parser.add_argument("--control-points", type=int)
     parser.add_argument("--segments", type=int)
-    parser.add_argument("--domain", default="box")
+    parser.add_argument("--domain", default="auto")
     options = parser.parse_args()
     if options.tolerance is None:
         options.tolerance = 0.0 if options.control_points else 0.1

@@ -24,7 +24,7 @@ data = pathlib.Path(os.environ.get("TRIVARIATE_DATA_DIR", root.parent / "shared"
 def row(run):
     volume, count = run.split("=")
     folder = pathlib.Path(sys.argv[1]) / f"{volume}-{count}"
-    subprocess.run([root / "reconstruct.sh", data / f"{volume}.vti", "--output", folder,
+    subprocess.run([root / "reconstruct.sh", data / f"{volume}.vti", "--domain", "box", "--output", folder,
                     "--control-points", count], check=True, stdout=sys.stderr)
     report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
     return (f"| {volume} | {report['voxels']:,} | {report['control_points']:,} "

@@ -16,6 +16,7 @@ TEST(TSplineReconstruction, StandsForEveryVoxelByASplineForEachSegment)
 {
   const auto image = Phantom();
   auto reconstruction = Reconstruct(image);
+  reconstruction->SetDomainToSegments();
   reconstruction->SetRMSTolerance(0.0);
   reconstruction->Update();
   auto* grid = reconstruction->GetOutput();
@@ -66,6 +67,7 @@ TEST(TSplineReconstruction, StandsForEveryVoxelByASplineForEachSegment)
 TEST(TSplineReconstruction, MeetsTheToleranceInEachSegment)
 {
   auto reconstruction = Reconstruct(Phantom());
+  reconstruction->SetDomainToSegments();
   reconstruction->SetMaximumNumberOfControlPoints(20000);
   reconstruction->SetRMSTolerance(0.8);
   reconstruction->Update();

@@ -138,6 +138,7 @@ TEST(TSplineReconstruction, SaysWhatIsWrong)
 {
   const auto image = Phantom();
   auto reconstruction = Reconstruct(image);
+  reconstruction->SetDomainToSegments();
   ErrorLog log(reconstruction);
   const auto expect = [&reconstruction, &log](const char* words)
   {

@@ -38,7 +38,8 @@ def read(reader, name):
 
 
 def test_results():
-    done = run("--output", "results", "--control-points", "1200", "--segments", "2")
+    done = run("--output", "results", "--control-points", "1200", "--domain", "box",
+               "--segments", "2")
     assert done.returncode == 0, done.stdout + done.stderr
     assert "100 %" in done.stdout and "control points" in done.stdout, done.stdout
     with open("results/report.json", encoding="utf-8") as file:
@@ -122,6 +123,26 @@ def test_results():
     assert len(picture) == 1600 * 800
     dark = (picture.reshape(800, 1600, -1)[:, :, :3].min(axis=2) < 240)
     assert dark[:, :800].mean() > 0.05 and dark[:, 800:].mean() > dark[:, :800].mean()
+
+
+def test_automatic():
+    """Without options: all that is on the way is there, and it is no worse than one spline."""
+    done = run("--output", "automatic", "--control-points", "1200")
+    assert done.returncode == 0, done.stdout + done.stderr
+    reports = {}
+    for folder in ("automatic", "results"):
+        with open(f"{folder}/report.json", encoding="utf-8") as file:
+            reports[folder] = json.load(file)
+    report = reports["automatic"]
+    assert list(report) == KEYS and report["segments"] >= 2 and report["domains"] >= 1
+    assert {"PolycubeDomain", "FrameField", "VolumeParameterization", "HexRemesh",
+            "FitOverBox"} <= set(report["seconds_of_fit"])
+    assert report["found_percent"] == 100.0 and report["control_points"] <= 1200
+    assert (report["round_trip_rms_density_percent"]
+            <= 1.0001 * reports["results"]["round_trip_rms_density_percent"])
+    for name in ("resampled.vti", "segments.vti", "boundary.vtp", "patches.vtp", "domain.vtu",
+                 "fields.vti", "hexmesh.vtu", "segments.png", "picture.png"):
+        assert os.path.getsize(os.path.join("automatic", name)) > 0
 
 
 def test_segments():
@@ -238,6 +259,7 @@ def test_faults():
 
 
 test_results()
+test_automatic()
 test_segments()
 test_given_domain()
 test_given_faults()
