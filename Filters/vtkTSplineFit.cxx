@@ -90,6 +90,7 @@ void ReportShape(const BlockFitResult& result, Index voxels, double spacing, vtk
   AddNumbers<vtkIdTypeArray>(field, "NumbersStored", { number(result.NumbersStored) });
   AddNumbers<vtkIdTypeArray>(
     field, "VoxelsInside", { number(result.VoxelsInside), number(voxels) });
+  AddNumbers<vtkIdTypeArray>(field, "VoxelsNear", { number(result.VoxelsNear) });
   AddNumbers<vtkDoubleArray>(field, "SmallestJacobian", { result.SmallestJacobian });
   AddNumbers<vtkIdTypeArray>(field, "ShapeCells",
     { number(result.ShapeCells), number(result.FoldedCells), number(result.CertifiedCells) });

@@ -4,19 +4,23 @@
 """Fits thresholded volumes over their domains and prints the table of Documentation/Results.md.
 
     . BUILD/environment.sh
-    python3 Utilities/fits.py [--identity] FOLDER tooth=105+:4:2000,5000 fuel=15/cube:2:280,800 ...
+    python3 Utilities/fits.py [--baselines] [--share .5] FOLDER tooth=105+:4:2000,5000 fuel=15/cube:2:280,800 ...
 
 Each argument is a volume, its thresholds as in domains.py (i of them are exceeded in segment i; with
 + cavities of what exceeds the first are filled), /cube for a domain without layers, the wanted edge
-of a hexahedron in space and the numbers of control points. The volume "ball" is a phantom. What has
-parameters is kept in FOLDER, made from domain, frames and parameterization if it is not there.
+of a hexahedron in space and the numbers of control points. The volumes "ball" and "bar" are phantoms;
+the bar is bent by 150 degrees. What has parameters is kept in FOLDER, made from domain, frames and
+parameterization if it is not there.
 
 All voxels of the segments that exceed the first threshold and have parameters count, cavities do not.
-RMS is that of the round trip: the spline at the places of the voxels, in parts of the range of the
-whole volume, times 100; "ramp" and "inside" are up to 1.5 voxels from the surface and beyond.
-With --identity beside it: T-Spline Fit of the same voxels in the image's own directions, which stores
-one number a control point, at as many control points, and at as many numbers. Seconds are those of the
-processor.
+RMS is that of the round trip, the spline at the places of the voxels or at the points of it nearest to
+them, in parts of the range of the whole volume, times 100; "inside" counts only voxels that it passes
+through, whose share and that of further ones up to half a voxel away stand beside it; "ramp, core" of
+these are up to 1.5 voxels from the surface and beyond.
+With --baselines beside it, by T-Spline Fit in the image's own directions, which stores one number a
+control point: the same voxels at as many control points, at as many numbers, and at as many control
+points less ten after a linear spline of their depth, with ten coefficients, has been taken off; and
+the whole box, its error at the same voxels. Seconds are those of the processor.
 """
 import argparse
 import os
@@ -70,6 +74,16 @@ def volume_of(name):
         z, y, x = numpy.meshgrid(*[numpy.arange(36) - 17.5] * 3, indexing="ij")
         density = (numpy.clip(15.5 - numpy.sqrt(x * x + y * y + z * z), 0, 1)
                    * (0.8 + 0.1 * numpy.cos(x / 6) * numpy.cos(y / 7))).ravel()
+    elif name == "bar":
+        image = vtkImageData()
+        image.SetDimensions(96, 60, 28)
+        z, y, x = numpy.meshgrid(numpy.arange(28) - 13.5, numpy.arange(60) - 3.5,
+                                 numpy.arange(96) - 47.5, indexing="ij")
+        angle = numpy.arctan2(x, y + 6)
+        outside = numpy.maximum.reduce([34 * (abs(angle) - numpy.radians(75)), abs(z) - 10,
+                                        abs(numpy.hypot(x, y + 6) - 34) - 10])
+        density = (numpy.clip(0.5 - outside, 0, 1)
+                   * (0.8 + 0.1 * numpy.cos(34 * angle / 9) * numpy.cos(z / 6))).ravel()
     else:
         image = read(vtkXMLImageDataReader(), data / f"{name}.vti")
         density = vtk_to_numpy(image.GetPointData().GetArray(0)).astype(float)
@@ -147,12 +161,14 @@ def depth_of(image):
     return numpy.sqrt(vtk_to_numpy(distance.GetOutput().GetPointData().GetScalars()))
 
 
-def fit(image, count, domain=None):
+def fit(image, count, domain=None, share=0.25, mask="Counts", array="Density"):
     """The T-spline grid, the field data of its table and seconds."""
     spline = vtkTSplineFit()
     spline.SetInputData(0, image)
-    spline.SetMaskArray("Counts")
+    spline.SetInputArrayToProcess(0, 0, 0, 0, array)
+    spline.SetMaskArray(mask)
     spline.SetMaximumNumberOfControlPoints(count)
+    spline.SetShapeShare(share)
     for port, output in enumerate(domain or []):
         spline.SetInputDataObject(1 + port, output)
     start = time.process_time()
@@ -181,7 +197,30 @@ def errors_of(grid, image):
     return error**2, array_of(result, "vtkValidPointMask") > 0
 
 
-def print_rows(folder, argument, with_identity):
+def without_depth(density, depth, counted):
+    """What the best linear spline of the depth leaves of the density; ten knots, as many voxels between."""
+    knots = numpy.unique(numpy.quantile(depth[counted], numpy.linspace(0, 1, 10)))
+    basis = numpy.stack([numpy.interp(depth, knots, hat) for hat in numpy.eye(len(knots))], axis=1)
+    solution = numpy.linalg.lstsq(basis[counted], density[counted], rcond=None)[0]
+    return density - basis @ solution
+
+
+def baselines(image, counted, depth, count, numbers):
+    """RMS of the same voxels in the image's own directions, as the columns have them."""
+    density = array_of(image, "Density")
+    whole = density.max() - density.min()
+
+    def masked(array, n):
+        values = array_of(image, array)[counted]
+        return (values.max() - values.min()) / whole * last_of(fit(image, n, array=array)[1], "RMS")
+    set_array(image, "Rest", without_depth(density, depth, counted))
+    box, _, _ = fit(image, count, mask="None")
+    squares, _ = errors_of(box, image)
+    return [masked("Density", count), masked("Density", numbers), masked("Rest", count - 10),
+            100 * numpy.sqrt(squares[counted].mean())]
+
+
+def print_rows(folder, argument, share, with_baselines):
     volume, edge, counts = argument.split(":")
     image, *domain = load(folder, volume, edge)
     image.GetPointData().SetActiveScalars("Density")
@@ -189,40 +228,44 @@ def print_rows(folder, argument, with_identity):
     least = float(volume.removesuffix("/cube").split("=")[1].rstrip("+").split(",")[0])
     counted = (density > least) & (array_of(image, "ParameterMask") > 0)
     set_array(image, "Counts", counted.astype(numpy.uint8))
-    ramp = depth_of(image) <= RAMP
+    depth = depth_of(image)
+    ramp = depth <= RAMP
     scale = (density[counted].max() - density[counted].min()) / (density.max() - density.min())
 
     def rms(squares, where):
         return 100 * numpy.sqrt(squares[where].mean()) if where.any() else numpy.nan
     for count in map(int, counts.split(",")):
-        grid, table, seconds = fit(image, count, domain)
+        grid, table, seconds = fit(image, count, domain, share)
         if grid.GetNumberOfPoints() == 0:
             continue
         squares, found = errors_of(grid, image)
         numbers = int(field_of(table, "NumbersStored"))
         distance, cells = field_of(table, "ShapeDistance"), field_of(table, "ShapeCells")
-        identity = ["-", "-"]
-        if with_identity:
-            identity = [f"{scale * last_of(fit(image, n)[1], 'RMS'):.2f}" for n in (count, numbers)]
+        inside, of = field_of(table, "VoxelsInside")
+        near = int(field_of(table, "VoxelsNear"))
+        others = ["-"] * 4
+        if with_baselines:
+            others = [f"{value:.2f}" for value in baselines(image, counted, depth, count, numbers)]
         print(f"| {volume.replace('=', ' > ')} | {last_of(table, 'ControlPoints'):,} "
               f"| {int(field_of(table, 'ShapeControlPoints')):,} | {numbers:,} "
               f"| {scale * last_of(table, 'RMS'):.2f} | {rms(squares, counted & found):.2f} "
-              f"| {100 * found[counted].mean():.2f} % "
+              f"| {100 * inside / of:.2f} + {100 * near / of:.2f} % "
               f"| {rms(squares, counted & found & ramp):.2f}, "
               f"{rms(squares, counted & found & ~ramp):.2f} "
               f"| {distance[0]:.2f}, {distance[1]:.1f} "
               f"| {cells[1]} / {cells[0] - cells[1] - cells[2]} / {cells[0]} "
-              f"| {identity[0]} | {identity[1]} | {seconds:.0f} |", flush=True)
+              f"| {' | '.join(others)} | {seconds:.0f} |", flush=True)
 
 
 parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
-parser.add_argument("--identity", action="store_true", help="the baselines, too")
+parser.add_argument("--baselines", action="store_true", help="fits in the image's own directions, too")
+parser.add_argument("--share", type=float, default=0.25, help="Shape Share; default 0.25")
 parser.add_argument("folder", type=pathlib.Path)
 parser.add_argument("runs", nargs="+", metavar="VOLUME=THRESHOLDS:EDGE:COUNTS")
 arguments = parser.parse_args()
-print("| segment | control points | shape | numbers stored | RMS | RMS, found | found | ramp, inside "
-      "| distance of the shape: RMS, largest | its cells: folded / not proven / all "
-      "| identity, as many points | identity, as many numbers | CPU s |")
-print("|---|---|---|---|---|---|---|---|---|---|---|---|---|")
+print("| segment | control points | shape | numbers stored | RMS | RMS, inside | inside, near | ramp, "
+      "core | distance of the shape: RMS, largest | its cells: folded / not proven / all | identity, "
+      "as many points | as many numbers | with depth | whole box | CPU s |")
+print("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|")
 for run in arguments.runs:
-    print_rows(arguments.folder, run, arguments.identity)
+    print_rows(arguments.folder, run, arguments.share, arguments.baselines)

@@ -146,12 +146,12 @@ private:
   // Voxels that are still outside pull the surface next to them over themselves.
   void CoverVoxels(ShapeTarget& target)
   {
-    std::vector<double> places = this->Voxels.Places, starts = this->Voxels.Parameters;
+    std::vector<double> places = this->Voxels.Places;
     for (int pull = 0; pull < Pulls; ++pull)
     {
       const BezierMesh mesh(this->Result.Spline, this->Run);
-      const FoundParameters found = FindParametersOnShape(
-        this->Result.Spline, mesh, this->Blocks, places, starts, this->Shape, this->Run);
+      const FoundParameters found =
+        FindParametersOnShape(this->Result.Spline, mesh, places, this->Run);
       std::vector<double> outside, feet;
       for (const Index i : found.Outside)
       {
@@ -170,7 +170,6 @@ private:
       this->SlideToSurface(stage, true);
       this->Measure(stage);
       places = std::move(outside);
-      starts = std::move(feet);
     }
   }
 
@@ -393,10 +392,10 @@ private:
   std::vector<double> FindParameters(const TSpline& shape)
   {
     const BezierMesh mesh(shape, this->Run);
-    const std::vector<double>& starts = this->Voxels.Parameters;
-    FoundParameters found = FindParametersOnShape(
-      shape, mesh, this->Blocks, this->Voxels.Places, starts, this->Shape, this->Run);
+    FoundParameters found = FindParametersOnShape(shape, mesh, this->Voxels.Places, this->Run);
     this->Result.VoxelsInside = found.Inside;
+    this->Result.VoxelsNear = std::count_if(found.Distances.begin(), found.Distances.end(),
+      [this](double distance) { return distance <= 0.5 * this->Options.Spacing; });
     auto [least, mean] = JacobianAt(shape, mesh, found.Parameters, this->Run);
     this->Result.ShapeCells = mesh.Size();
     this->Result.FoldedCells = this->Result.CertifiedCells = 0;

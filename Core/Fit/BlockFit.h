@@ -9,8 +9,8 @@
  * nested in that of the attributes. Then every voxel takes the parameters at which this shape
  * passes through it, and the attributes are fitted there, as in FitGrid. Where the shape has a
  * surface to slide on, it then follows the errors of the attributes, on its own net and with its
- * surface held (DataPull.h); voxels take their parameters on it and the attributes are fitted again,
- * with the functions that they have, a few times and as long as the error falls.
+ * surface held (DataPull.h); voxels take their parameters on it and the attributes are fitted
+ * again, with the functions that they have, a few times and as long as the error falls.
  */
 #ifndef trivariate_BlockFit_h
 #define trivariate_BlockFit_h
@@ -82,6 +82,7 @@ struct BlockFitResult
   Index NumbersStored = 0;
   double ShapeRms = 0.0, ShapeMaximum = 0.0; ///< distance from where the surface is wanted
   Index VoxelsInside = 0;                    ///< voxels that the shape passes through
+  Index VoxelsNear = 0; ///< others, up to half of Spacing away; they have their nearest point
   /// The least determinant of d(X, Y, Z)/d(u, v, w) at all voxels and at 9 x 9 x 9 points of each
   /// cell of the shape, in parts of the mean over the voxels.
   double SmallestJacobian = 0.0;

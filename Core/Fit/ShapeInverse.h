@@ -4,7 +4,7 @@
 #ifndef trivariate_ShapeInverse_h
 #define trivariate_ShapeInverse_h
 
-#include "BlockFit.h"
+#include "Execution.h"
 #include "TSpline/BezierMesh.h"
 
 #include <vector>
@@ -15,17 +15,14 @@ struct FoundParameters
 {
   std::vector<double> Parameters; ///< (u, v, w) of each place
   Index Inside = 0;               ///< places that the shape passes through (see InverseMap)
-  std::vector<Index> Outside;     ///< the others
+  std::vector<Index> Outside;     ///< the others,
+  std::vector<double> Distances;  ///< and how far each is from the shape
 };
 
-/**
- * `places`: (X, Y, Z) of each. One that the shape does not reach gets the parameter of the nearest
- * point of the block of its start, as far as Gauss-Newton steps lead there. `starts`: (u, v, w) of
- * each, or empty, and then that of the nearest of `samples`.
- */
+/// `places`: (X, Y, Z) of each. One that the shape does not reach gets the parameters of its
+/// nearest point (see InverseMap::FindNearest).
 FoundParameters FindParametersOnShape(const TSpline& spline, const BezierMesh& mesh,
-  const BlockComplex& blocks, const std::vector<double>& places, const std::vector<double>& starts,
-  const ShapeSamples& samples, const Execution& execution);
+  const std::vector<double>& places, const Execution& execution);
 }
 
 #endif

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace trivariate
 {
@@ -28,17 +29,28 @@ double DistanceFrom(const std::array<double, 3>& low, const std::array<double, 3
 }
 
 //------------------------------------------------------------------------------
-// Gauss-Newton steps from the middle of a cell, which stay in the cell: a parameter at an end of it
-// rests there as long as the distance falls outwards.
+// Gauss-Newton steps from the nearest of 27 points of a cell, which stay in the cell: a parameter
+// at an end of it rests there as long as the distance falls outwards.
 void InverseMap::Approach(const Vector& point, Index cell, Place& nearest) const
 {
   const std::array<double, 6> bounds = this->Cells->Bounds(cell);
   Place here;
-  for (int a = 0; a < 3; ++a)
+  here.Distance = std::numeric_limits<double>::infinity();
+  for (int start = 0; start < 27; ++start)
   {
-    here.Parameters[a] = 0.5 * (bounds[2 * a] + bounds[2 * a + 1]);
+    const int thirds[3] = { start % 3, start / 3 % 3, start / 9 };
+    Place place;
+    for (int a = 0; a < 3; ++a)
+    {
+      const double low = bounds[2 * a], high = bounds[2 * a + 1];
+      place.Parameters[a] = low + (high - low) * (thirds[a] + 0.5) / 3.0;
+    }
+    if (this->Evaluate(point, place) && place.Distance < here.Distance)
+    {
+      here = place;
+    }
   }
-  if (!this->Evaluate(point, here))
+  if (!std::isfinite(here.Distance))
   {
     return;
   }

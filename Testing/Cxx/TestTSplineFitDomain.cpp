@@ -66,6 +66,7 @@ TEST(TSplineFitDomain, FitsABall)
   EXPECT_EQ(FieldNumber(rounds, "ShapeCells", 1), 0.0);
   EXPECT_EQ(FieldNumber(rounds, "VoxelsInside", 1), ball.NumberOfVoxels);
   EXPECT_EQ(FieldNumber(rounds, "VoxelsInside"), ball.NumberOfVoxels);
+  EXPECT_EQ(FieldNumber(rounds, "VoxelsNear"), 0.0);
 
   // Points that are one control point are at one place, with one weight and one density.
   vtkDataArray* shared = grid->GetPointData()->GetArray("SharedControlPoint");
