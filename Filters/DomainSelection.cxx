@@ -4,6 +4,7 @@
 
 #include "Domain/InnerCorners.h"
 
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCleanPolyData.h"
 #include "vtkDataArray.h"
@@ -13,11 +14,30 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 
 namespace trivariate
 {
+namespace
+{
+// The cells of some segments.
+std::vector<vtkIdType> CellsOf(vtkDataSet* data, const std::set<int>& segments)
+{
+  std::vector<vtkIdType> cells;
+  vtkDataArray* owners = data->GetCellData()->GetArray("Segment");
+  for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
+  {
+    if (segments.count(static_cast<int>(owners->GetTuple1(cell))) > 0)
+    {
+      cells.push_back(cell);
+    }
+  }
+  return cells;
+}
+}
+
 //------------------------------------------------------------------------------
 vtkNew<vtkUnstructuredGrid> CubesOf(
   vtkUnstructuredGrid* polycubes, const std::vector<vtkIdType>& cells)
@@ -35,6 +55,64 @@ vtkNew<vtkUnstructuredGrid> CubesOf(
       polycubes->GetCellData(), cell, cubes->InsertNextCell(polycubes->GetCellType(cell), points));
   }
   return cubes;
+}
+
+//------------------------------------------------------------------------------
+vtkNew<vtkUnstructuredGrid> WithoutLayers(vtkUnstructuredGrid* polycubes)
+{
+  vtkDataArray* owners = polycubes->GetCellData()->GetArray("Segment");
+  vtkDataArray* patches = polycubes->GetCellData()->GetArray("Patch");
+  vtkDataArray* cornerIds = polycubes->GetPointData()->GetArray("CornerId");
+  vtkDataArray* coordinates = polycubes->GetPointData()->GetArray("DomainCoordinates");
+  const auto coordinatesOf = [coordinates](vtkIdType point)
+  {
+    std::array<double, 3> at;
+    coordinates->GetTuple(point, at.data());
+    return at;
+  };
+  // An inner corner has the coordinates of the one above it.
+  std::map<double, std::map<std::array<double, 3>, vtkIdType>> cornerAt; // of each segment
+  std::set<double> layered;
+  std::vector<vtkIdType> cubes;
+  vtkNew<vtkIdList> points;
+  for (vtkIdType cell = 0; cell < polycubes->GetNumberOfCells(); ++cell)
+  {
+    if (patches->GetTuple1(cell) < 0.0)
+    {
+      cubes.push_back(cell);
+      continue;
+    }
+    layered.insert(owners->GetTuple1(cell));
+    polycubes->GetCellPoints(cell, points);
+    for (const vtkIdType point : *points)
+    {
+      if (cornerIds->GetTuple1(point) >= 0.0)
+      {
+        cornerAt[owners->GetTuple1(cell)][coordinatesOf(point)] = point;
+      }
+    }
+  }
+  cubes.erase(std::remove_if(cubes.begin(), cubes.end(),
+                [&](vtkIdType cell) { return layered.count(owners->GetTuple1(cell)) == 0; }),
+    cubes.end());
+
+  vtkNew<vtkUnstructuredGrid> alone = CubesOf(polycubes, cubes);
+  for (vtkIdType cell = 0; cell < alone->GetNumberOfCells(); ++cell)
+  {
+    const double segment = alone->GetCellData()->GetArray("Segment")->GetTuple1(cell);
+    const auto& corners = cornerAt.at(segment);
+    alone->GetCellPoints(cell, points);
+    for (vtkIdType& point : *points)
+    {
+      const auto above = corners.find(coordinatesOf(point));
+      point = above == corners.end() ? point : above->second;
+    }
+    alone->GetCells()->ReplaceCellAtId(cell, points);
+    // All of a segment are one group.
+    const auto group = std::distance(layered.begin(), layered.find(segment));
+    alone->GetCellData()->GetArray("Block")->SetTuple1(cell, static_cast<double>(group));
+  }
+  return alone;
 }
 
 //------------------------------------------------------------------------------
@@ -58,30 +136,25 @@ std::vector<std::string> LeaveOutInverted(vtkPolyData* patches, vtkUnstructuredG
   }
 
   std::vector<std::string> why;
-  std::set<int> out;
+  std::set<int> sound;
   for (auto& [segment, blocks] : blocksOf)
   {
     blocks.Places = all.Places;
     const std::size_t inverted = InvertedBlocks(blocks).size();
-    if (2 * inverted >= blocks.Blocks.size())
+    if (2 * inverted < blocks.Blocks.size())
     {
-      out.insert(segment);
-      why.push_back("Segment " + std::to_string(segment) + " is fitted over its bounding box: " +
-                    std::to_string(inverted) + " of " + std::to_string(blocks.Blocks.size()) +
-                    " blocks of its domain are inverted or flat between their corners.");
+      sound.insert(segment);
+      continue;
     }
+    why.push_back("Segment " + std::to_string(segment) + " is fitted over its bounding box: " +
+                  std::to_string(inverted) + " of " + std::to_string(blocks.Blocks.size()) +
+                  " blocks of its domain are inverted or flat between their corners.");
   }
-  if (out.empty())
+  const std::vector<vtkIdType> cells = CellsOf(polycubes, sound);
+  const std::vector<vtkIdType> triangles = CellsOf(patches, sound);
+  if (static_cast<vtkIdType>(triangles.size()) == patches->GetNumberOfCells())
   {
     return why;
-  }
-  std::vector<vtkIdType> cells;
-  for (vtkIdType cell = 0; cell < polycubes->GetNumberOfCells(); ++cell)
-  {
-    if (out.count(static_cast<int>(owners->GetTuple1(cell))) == 0)
-    {
-      cells.push_back(cell);
-    }
   }
   polycubes->ShallowCopy(CubesOf(polycubes, cells));
   vtkNew<vtkPolyData> kept;
@@ -89,16 +162,12 @@ std::vector<std::string> LeaveOutInverted(vtkPolyData* patches, vtkUnstructuredG
   kept->GetPointData()->ShallowCopy(patches->GetPointData());
   kept->GetCellData()->CopyAllocate(patches->GetCellData());
   kept->AllocateEstimate(patches->GetNumberOfCells(), 3);
-  vtkDataArray* seenFrom = patches->GetCellData()->GetArray("Segment");
-  for (vtkIdType cell = 0; cell < patches->GetNumberOfCells(); ++cell)
+  vtkNew<vtkIdList> points;
+  for (const vtkIdType triangle : triangles)
   {
-    if (out.count(static_cast<int>(seenFrom->GetTuple1(cell))) == 0)
-    {
-      vtkNew<vtkIdList> points;
-      patches->GetCellPoints(cell, points);
-      kept->GetCellData()->CopyData(
-        patches->GetCellData(), cell, kept->InsertNextCell(VTK_TRIANGLE, points));
-    }
+    patches->GetCellPoints(triangle, points);
+    kept->GetCellData()->CopyData(
+      patches->GetCellData(), triangle, kept->InsertNextCell(VTK_TRIANGLE, points));
   }
   vtkNew<vtkCleanPolyData> clean; // of points that no triangle has
   clean->PointMergingOff();

@@ -19,9 +19,13 @@ namespace trivariate
 vtkNew<vtkUnstructuredGrid> CubesOf(
   vtkUnstructuredGrid* polycubes, const std::vector<vtkIdType>& cells);
 
+/// Of solid segments with layers, the cubes alone, with corners on the surface; no others.
+vtkNew<vtkUnstructuredGrid> WithoutLayers(vtkUnstructuredGrid* polycubes);
+
 /**
  * Takes the segments out of which half of the blocks or more are inverted or flat between their
- * corners: their block meshes would keep folds after minutes. Sentences say which and why.
+ * corners, since their block meshes would keep folds after minutes, and patches of those without
+ * blocks. Sentences say which of the first and why.
  */
 std::vector<std::string> LeaveOutInverted(vtkPolyData* patches, vtkUnstructuredGrid* polycubes);
 }

@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -182,74 +183,106 @@ FittedPart FitOverBox(const Cut& cut, const Part& part, const SegmentFitOptions&
 }
 
 //------------------------------------------------------------------------------
-// A fit over a domain, or the reason why there is none: empty if there is.
-std::string FitOverCubes(const Cut& cut, const Part& part, const SegmentFitOptions& options,
-  Chain& chain, double from, double to, FittedPart& fitted)
+struct CubesFit
 {
-  vtkImageData* fields = options.Domains->Fields;
+  FittedPart Fitted;
+  std::vector<vtkIdType> Missed; // voxels that the spline does not pass through
+  std::string Why;               // there is none; empty: there is one
+};
+
+CubesFit FitCubes(vtkImageData* image, const Cut& cut, const Part& part,
+  const FilledDomains& domains, const SegmentFitOptions& options, Chain& chain, double from,
+  double to)
+{
+  CubesFit cubes;
   for (const char* name : { ParameterArrayName, ParameterMaskName })
   {
-    AddCropped(fields, fields->GetPointData()->GetArray(name), cut.Image);
+    AddCropped(domains.Fields, domains.Fields->GetPointData()->GetArray(name), cut.Image);
   }
+  const double fitted = to - 0.1 * (to - from);
   try
   {
-    fitted =
-      FitOverDomain(*options.Domains, cut.Image, MaskName, part.Label, options, chain, from, to);
+    cubes.Fitted =
+      FitOverDomain(domains, cut.Image, MaskName, part.Label, options, chain, from, fitted);
   }
   catch (const std::runtime_error& reason)
   {
-    return reason.what();
+    cubes.Why = reason.what();
+    return cubes;
   }
-  return "";
+  PartErrors errors =
+    MeasurePart(image, options.Array, cubes.Fitted.Model, cut.Voxels, chain, fitted, to);
+  cubes.Fitted.Squares = errors.Squares;
+  cubes.Missed = std::move(errors.Missed);
+  if (double(cubes.Missed.size()) > MostMissed * double(cut.Voxels.size()))
+  {
+    cubes.Why = "the spline over its cubes misses " + std::to_string(cubes.Missed.size()) + " of " +
+                std::to_string(cut.Voxels.size()) + " voxels.";
+  }
+  return cubes;
 }
 
 //------------------------------------------------------------------------------
-// The fit over the box, and `why` it is that one; or that over the cubes if it is better, and the
+// The fit over the box, and `why` it is that one; or that over cubes if it is better, and the
 // voxels that it misses, which are those of part 0 then.
 FittedPart FitPart(vtkImageData* image, const Part& part, std::int32_t number,
   const SegmentFitOptions& options, Chain& chain, double from, double to,
   std::vector<std::int32_t>& partOf, std::string& why)
 {
   const Cut cut = CutOut(image, part, number, partOf, options);
-  const bool hasDomain = number > 0 && options.Domains->BlocksOf.count(part.Label) > 0;
-  const double boxed = hasDomain ? from + ShareOfBox * (to - from) : to;
-  const double aligned = to - 0.1 * (to - from);
-  if (!hasDomain)
+  std::vector<const FilledDomains*> candidates;
+  for (const FilledDomains& domains : options.Domains)
   {
-    return FitOverBox(cut, part, options, chain, from, boxed);
+    if (number > 0 && domains.BlocksOf.count(part.Label) > 0)
+    {
+      candidates.push_back(&domains);
+    }
   }
-  FittedPart box, cubes;
+  if (candidates.empty())
+  {
+    return FitOverBox(cut, part, options, chain, from, to);
+  }
+  const double boxed = from + ShareOfBox * (to - from);
+  const double each = (to - boxed) / static_cast<double>(candidates.size());
+  const auto all = static_cast<double>(cut.Voxels.size());
+  double least = std::numeric_limits<double>::infinity(); // squared error of a voxel
+  FittedPart best;
+  std::vector<vtkIdType> missed;
+  bool overCubes = false;
   if (options.Compared)
   {
-    box = FitOverBox(cut, part, options, chain, from, boxed);
+    best = FitOverBox(cut, part, options, chain, from, boxed);
+    least = best.Squares / all;
   }
-  why = FitOverCubes(cut, part, options, chain, boxed, aligned, cubes);
-  if (why.empty())
+  for (std::size_t i = 0; i < candidates.size(); ++i)
   {
-    const auto all = static_cast<double>(cut.Voxels.size());
-    const PartErrors errors =
-      MeasurePart(image, options.Array, cubes.Model, cut.Voxels, chain, aligned, to);
-    const auto missed = static_cast<double>(errors.Missed.size());
-    if (missed > MostMissed * all)
+    const double begin = boxed + each * static_cast<double>(i);
+    CubesFit cubes =
+      FitCubes(image, cut, part, *candidates[i], options, chain, begin, begin + each);
+    const double error = cubes.Fitted.Squares / (all - static_cast<double>(cubes.Missed.size()));
+    if (cubes.Why.empty() && error >= least)
     {
-      why = "the spline over its cubes misses " + std::to_string(errors.Missed.size()) + " of " +
-            std::to_string(cut.Voxels.size()) + " voxels.";
+      cubes.Why = "with as many control points that is more accurate than its cubes.";
     }
-    else if (options.Compared && errors.Squares / (all - missed) >= box.Squares / all)
+    if (cubes.Why.empty())
     {
-      why = "with as many control points that is more accurate than its cubes.";
+      best = std::move(cubes.Fitted);
+      missed = std::move(cubes.Missed);
+      least = error;
+      overCubes = true;
     }
-    else
-    {
-      for (const vtkIdType voxel : errors.Missed)
-      {
-        partOf[voxel] = 0;
-      }
-      cubes.Squares = errors.Squares;
-      return cubes;
-    }
+    why = why.empty() ? cubes.Why : why;
   }
-  return options.Compared ? box : FitOverBox(cut, part, options, chain, to, to);
+  why = overCubes ? "" : why;
+  if (!best.Rounds)
+  {
+    return FitOverBox(cut, part, options, chain, to, to);
+  }
+  for (const vtkIdType voxel : missed)
+  {
+    partOf[voxel] = 0;
+  }
+  return best;
 }
 
 //------------------------------------------------------------------------------
@@ -320,9 +353,14 @@ SegmentFits FitSegments(vtkImageData* image, const SegmentFitOptions& options, v
   const auto fewest = [&options, &parts](std::size_t p)
   {
     // Over a domain that is wanted every block needs some.
-    const auto domain = options.Domains->BlocksOf.find(parts[p].Label);
-    const bool wanted = !options.Compared && domain != options.Domains->BlocksOf.end();
-    return FewestControlPoints * (wanted ? domain->second : 1);
+    int blocks = 1;
+    for (const FilledDomains& domains : options.Domains)
+    {
+      const auto domain = domains.BlocksOf.find(parts[p].Label);
+      const bool wanted = !options.Compared && domain != domains.BlocksOf.end();
+      blocks = std::max(blocks, wanted ? domain->second : 1);
+    }
+    return FewestControlPoints * blocks;
   };
   double left = options.MaximumControlPoints, open = 1.0, done = 0.0, reserved = 0.0;
   for (const std::size_t p : order)

@@ -6,6 +6,7 @@
 #ifndef SegmentFits_h
 #define SegmentFits_h
 
+#include "FilledDomains.h"
 #include "TSpline/TSplineModel.h"
 
 #include <string>
@@ -17,7 +18,6 @@ class vtkTable;
 namespace trivariate
 {
 struct Chain;
-struct FilledDomains;
 
 struct SegmentFitOptions
 {
@@ -25,7 +25,7 @@ struct SegmentFitOptions
   std::vector<std::string> Further; ///< and those beside it
   int MaximumControlPoints = 0;     ///< of all segments together
   double RmsTolerance = 0.0;        ///< percent of the array's range over the whole image; 0: none
-  const FilledDomains* Domains = nullptr; ///< of cubes; needed
+  std::vector<FilledDomains> Domains; ///< of cubes; several of a segment are compared
   bool Compared = true; ///< whether a fit over a domain must be better than that over the box
 };
 
@@ -37,8 +37,8 @@ struct SegmentFits
 
 /**
  * Fits the voxels of each label in the point array Segment over the label's bounding box, the
- * others masked; and those with a domain also over its cubes with as many control points. The
- * better one by the round trip is kept, or where they are not compared that over the cubes if it
+ * others masked; and those with domains also over their cubes with as many control points. The
+ * best one by the round trip is kept, or where they are not compared that over the cubes if it
  * misses few voxels; `why` says for each label with a domain why it is the box. Voxels that the
  * spline over a domain misses get the lowest label.
  *

@@ -58,7 +58,7 @@ enum Outputs
 
 // Where the steps end, as shares of the progress.
 constexpr double Segmented = 0.2, Whole = 0.23, Bounded = 0.27, LaidOut = 0.35, Filled = 0.5,
-                 AllFitted = 0.9;
+                 FilledAgain = 0.6, AllFitted = 0.9;
 
 //------------------------------------------------------------------------------
 // The image with these arrays only, and labels (or null: none) under the name Segment.
@@ -225,8 +225,7 @@ vtkSmartPointer<vtkTSplineFit> vtkTSplineReconstruction::FitBox(
 bool vtkTSplineReconstruction::IsBoxBetter(vtkTSplineFit* box, const SegmentFits& segments)
 {
   const double rms = LastRms(vtkTable::SafeDownCast(box->GetOutputDataObject(1)));
-  const vtkIdType points = box->GetOutput()->GetNumberOfPoints(),
-                  others = segments.Model.Spline.Size();
+  const Index points = box->GetOutput()->GetNumberOfPoints(), others = segments.Model.Spline.Size();
   const bool meetTolerance = std::max(rms, segments.RmsPercent) <= this->RMSTolerance;
   const bool better = meetTolerance ? points <= others : rms <= segments.RmsPercent;
   if (better)
@@ -267,10 +266,11 @@ void vtkTSplineReconstruction::LayOut(vtkPolyData* surfaces, const std::vector<G
 //------------------------------------------------------------------------------
 // Fields and hexahedra over domains of cubes; none, and a warning that says why, where there is no
 // domain. A domain that was given has to be one.
-FilledDomains vtkTSplineReconstruction::Fill(vtkImageData* segments, vtkPolyData* surfaces,
-  const std::vector<GivenDomain>& given, Chain& chain, vtkInformationVector* outputVector)
+std::vector<FilledDomains> vtkTSplineReconstruction::Fill(vtkImageData* segments,
+  vtkPolyData* surfaces, const std::vector<GivenDomain>& given, Chain& chain,
+  vtkInformationVector* outputVector)
 {
-  FilledDomains domains;
+  std::vector<FilledDomains> domains;
   vtkPolyData* patches = vtkPolyData::GetData(outputVector, PATCHES);
   vtkUnstructuredGrid* polycubes = vtkUnstructuredGrid::GetData(outputVector, POLYCUBES);
   bool isLaidOut = false;
@@ -280,10 +280,15 @@ FilledDomains vtkTSplineReconstruction::Fill(vtkImageData* segments, vtkPolyData
     isLaidOut = true;
     if (polycubes->GetNumberOfCells() > 0)
     {
-      domains = FillDomains(segments, patches, polycubes, chain, LaidOut, Filled);
-      polycubes->ShallowCopy(domains.Polycubes);
-      vtkImageData::GetData(outputVector, FIELDS)->ShallowCopy(domains.Fields);
-      vtkUnstructuredGrid::GetData(outputVector, HEXAHEDRA)->ShallowCopy(domains.Hexahedra);
+      const FilledDomains& filled =
+        domains.emplace_back(FillDomains(segments, patches, polycubes, chain, LaidOut, Filled));
+      polycubes->ShallowCopy(filled.Polycubes);
+      vtkImageData::GetData(outputVector, FIELDS)->ShallowCopy(filled.Fields);
+      vtkUnstructuredGrid::GetData(outputVector, HEXAHEDRA)->ShallowCopy(filled.Hexahedra);
+      if (given.empty())
+      {
+        domains.push_back(FillCubesAlone(filled, patches, chain, Filled, FilledAgain));
+      }
     }
   }
   catch (const std::runtime_error& reason)
@@ -292,7 +297,8 @@ FilledDomains vtkTSplineReconstruction::Fill(vtkImageData* segments, vtkPolyData
     {
       throw;
     }
-    vtkWarningMacro("No segment is fitted over cubes: " << reason.what());
+    vtkWarningMacro("No segment is fitted over cubes"
+                    << (domains.empty() ? ": " : " without layers: ") << reason.what());
   }
   return domains;
 }
@@ -341,7 +347,7 @@ void vtkTSplineReconstruction::FitParts(vtkImageData* image, bool labelled,
   {
     vtkImageData::GetData(outputVector, FIELDS)->ShallowCopy(segments);
   }
-  FilledDomains domains;
+  std::vector<FilledDomains> domains;
   double range[2];
   segments->GetPointData()->GetArray("Segment")->GetRange(range);
   if (range[0] < range[1])
@@ -362,7 +368,7 @@ void vtkTSplineReconstruction::FitParts(vtkImageData* image, bool labelled,
   options.Further = this->Attributes;
   options.MaximumControlPoints = this->MaximumNumberOfControlPoints;
   options.RmsTolerance = this->RMSTolerance;
-  options.Domains = &domains;
+  options.Domains = std::move(domains);
   options.Compared = given.empty();
   std::vector<std::string> why;
   vtkTable* rounds = vtkTable::GetData(outputVector, ROUNDS);

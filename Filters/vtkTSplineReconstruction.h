@@ -12,14 +12,14 @@
  * The chain is that of vtkTextureSegmentation, vtkSegmentTopology, vtkSegmentBoundary and
  * vtkTSplineFit, each with its defaults. A segment is fitted over its bounding box, the voxels of
  * other segments masked. With Domain AUTOMATIC every segment for which vtkPolycubeDomain finds a
- * domain is fitted a second time, over its cubes (vtkFrameField, vtkVolumeParameterization), with
- * as many control points, and what is more accurate in the round trip is kept; then one spline is
- * fitted over the whole image, and if it is more accurate than all segments together (or, where
- * both meet the tolerance, has fewer control points), it is the result, and a warning says so. With
- * Domain GIVEN the segments with a domain in the second input are fitted over that. A warning tells
- * why a segment with a domain stays with its box: half or more of the blocks that were found are
- * inverted between their corners, folds, voxels that are missed. Up to 2 % of the voxels may be
- * missed; these are counted to the lowest segment.
+ * domain is fitted again, over its cubes with layers and without (vtkFrameField,
+ * vtkVolumeParameterization), with as many control points, and what is most accurate in the round
+ * trip is kept; then one spline is fitted over the whole image, and if it is more accurate than all
+ * segments together (or, where both meet the tolerance, has fewer control points), it is the
+ * result, and a warning says so. With Domain GIVEN the segments with a domain in the second input
+ * are fitted over that. A warning tells why a segment with a domain stays with its box: half or
+ * more of the blocks that were found are inverted between their corners, folds, voxels that are
+ * missed. Up to 2 % of the voxels may be missed; these are counted to the lowest segment.
  *
  * @par Input
  * Port 0: a vtkImageData with two or more points along each axis. The point array to fit is chosen
@@ -46,11 +46,11 @@
  * With Domain AUTOMATIC or GIVEN also, of those segments that have a domain:
  * Port 4: vtkPolyData, patches, of vtkPolycubeDomain. Port 5: vtkUnstructuredGrid, polycubes, and
  * port 6: vtkImageData, fields, both of vtkVolumeParameterization (frames, Parameter,
- * ParameterMask, Block; without domains the image of port 2). Port 7: vtkUnstructuredGrid,
- * hexahedra of vtkHexRemesh. Those and the block meshes behind the parameters have cells two voxels
- * long, or as long as 30,000 of them fill the image if that is more. With the field data
- * InvertedCells (double x 2, before and after repair) and ScaledJacobian (double x 2, least and
- * mean).
+ * ParameterMask, Block; of the domain with its layers; without domains the image of port 2). Port
+ * 7: vtkUnstructuredGrid, hexahedra of vtkHexRemesh. Those and the block meshes behind the
+ * parameters have cells two voxels long, or as long as 30,000 of them fill the image if that is
+ * more. With the field data InvertedCells (double x 2, before and after repair) and ScaledJacobian
+ * (double x 2, least and mean).
  *
  * @par Cost
  * The sum of the steps; memory that of the most expensive one. Threaded with vtkSMPTools; the
@@ -192,7 +192,7 @@ private:
     const std::vector<trivariate::GivenDomain>& given, trivariate::Chain& chain,
     vtkInformationVector* outputVector);
   vtkSmartPointer<vtkImageData> Split(vtkImageData* image, bool labelled, trivariate::Chain& chain);
-  trivariate::FilledDomains Fill(vtkImageData* segments, vtkPolyData* surfaces,
+  std::vector<trivariate::FilledDomains> Fill(vtkImageData* segments, vtkPolyData* surfaces,
     const std::vector<trivariate::GivenDomain>& given, trivariate::Chain& chain,
     vtkInformationVector* outputVector);
   void LayOut(vtkPolyData* surfaces, const std::vector<trivariate::GivenDomain>& given,

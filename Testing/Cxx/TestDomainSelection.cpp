@@ -131,6 +131,34 @@ TEST(DomainSelection, LeavesOutWhatIsMostlyInverted)
   EXPECT_LT(missing, 10);
 }
 
+// Cubes over the surface's corners, one for each ball, right-handed and as large as those.
+TEST(DomainSelection, TakesLayersOff)
+{
+  TwoBalls balls;
+  const vtkNew<vtkUnstructuredGrid> cubes = trivariate::WithoutLayers(balls.Polycubes);
+  ASSERT_EQ(cubes->GetNumberOfCells(), 2);
+  vtkPointData* data = cubes->GetPointData();
+  for (vtkIdType cell = 0; cell < 2; ++cell)
+  {
+    EXPECT_EQ(cubes->GetCellData()->GetArray("Segment")->GetTuple1(cell), cell + 1.0);
+    EXPECT_EQ(cubes->GetCellData()->GetArray("Patch")->GetTuple1(cell), -1.0);
+    vtkNew<vtkIdList> points;
+    cubes->GetCellPoints(cell, points);
+    const double x[3] = { cell == 0 ? 8.0 : 23.3, 8.1, 8.3 };
+    for (const vtkIdType point : *points)
+    {
+      EXPECT_GE(data->GetArray("CornerId")->GetTuple1(point), 0.0);
+      const double* p = cubes->GetPoint(point);
+      EXPECT_NEAR(std::hypot(p[0] - x[0], p[1] - x[1], p[2] - x[2]), 6.2, 0.7);
+    }
+  }
+  EXPECT_TRUE(trivariate::LeaveOutInverted(balls.Patches, cubes).empty());
+  EXPECT_EQ(cubes->GetNumberOfCells(), 2);
+  EXPECT_NE(cubes->GetCellData()->GetArray("Block")->GetTuple1(0),
+    cubes->GetCellData()->GetArray("Block")->GetTuple1(1));
+  EXPECT_EQ(trivariate::WithoutLayers(cubes)->GetNumberOfCells(), 0); // they have none
+}
+
 TEST(DomainSelection, KeepsWhatIsMostlySound)
 {
   TwoBalls balls;

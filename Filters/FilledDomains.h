@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// Domains of cubes with all that a fit over them needs.
+#ifndef FilledDomains_h
+#define FilledDomains_h
+
+#include "vtkImageData.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <map>
+#include <set>
+
+namespace trivariate
+{
+/// Frames, parameters and hexahedra of all segments with a domain.
+struct FilledDomains
+{
+  vtkSmartPointer<vtkImageData> Fields;           ///< output 0 of vtkVolumeParameterization,
+  vtkSmartPointer<vtkUnstructuredGrid> Polycubes; ///< its output 1
+  vtkSmartPointer<vtkPartitionedDataSetCollection> Blocks; ///< and its output 2
+  /// Output 1 of vtkHexRemesh, with the field data InvertedCells (before and after repair) and
+  /// ScaledJacobian (least and mean).
+  vtkSmartPointer<vtkUnstructuredGrid> Hexahedra;
+  std::map<int, int> BlocksOf; ///< of the segments that have a domain: how many blocks
+  std::set<int> Folded;        ///< those with an inverted cell in their blocks
+};
+}
+
+#endif
