@@ -83,8 +83,8 @@ struct BlockFitResult
   double ShapeRms = 0.0, ShapeMaximum = 0.0; ///< distance from where the surface is wanted
   Index VoxelsInside = 0;                    ///< voxels that the shape passes through
   Index VoxelsNear = 0; ///< others, up to half of Spacing away; they have their nearest point
-  /// The least determinant of d(X, Y, Z)/d(u, v, w) at all voxels and at 9 x 9 x 9 points of each
-  /// cell of the shape, in parts of the mean over the voxels.
+  /// The least determinant of d(X, Y, Z)/d(u, v, w) at all voxels and at 9^3 points of each cell of
+  /// the shape, 33^3 of those not proven positive, in parts of the mean over the voxels.
   double SmallestJacobian = 0.0;
   /// Cells of the shape, those of them with a point where that is not positive, and those proven
   /// positive everywhere.

@@ -26,7 +26,7 @@ constexpr double Shallow = 0.005;  // and not less than of a fold so deep
 constexpr double Evenness = 1.0; // the size counts as much as the shape
 
 // A determinant so small at twice as many points makes them count.
-constexpr double Nearly[] = { 0.1, 0.002 };
+constexpr double Nearly[] = { 0.1, 0.002, 0.0 };
 
 // The cubic Bernstein polynomials, and their derivatives, at points of the unit interval.
 struct Line
@@ -54,11 +54,11 @@ struct Line
   Index Size() const { return this->Polynomials.rows(); }
 };
 
-constexpr int MostHalvings = 2;
+constexpr int MostHalvings = 3;
 
 const Line& PointsOf(int halvings)
 {
-  static const Line lines[MostHalvings + 1] = { Line(5), Line(9), Line(17) };
+  static const Line lines[MostHalvings + 1] = { Line(5), Line(9), Line(17), Line(33) };
   return lines[halvings];
 }
 

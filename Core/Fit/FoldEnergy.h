@@ -32,7 +32,7 @@ public:
     const Execution& execution);
 
   /// Cells count at 5 x 5 x 5 points; from now on those that fold or nearly fold at 9 x 9 x 9
-  /// there, and of these those that fold at 17 x 17 x 17 there.
+  /// there, of these those that fold at 17 x 17 x 17 there, and of these at 33 x 33 x 33.
   void CountFinely(const ShapeNet& net);
 
   struct Evaluation

@@ -103,6 +103,36 @@ bool IsPositive(const Coefficients& c, int halvings)
   }
   return true;
 }
+
+constexpr int FinePoints = 33; // an axis, where nothing is proven
+
+// The determinant at `points` a direction of a cell, the ends among them, u fastest.
+std::vector<double> DeterminantsAt(
+  int points, const std::array<double, 6>& box, const double* bezier)
+{
+  std::vector<BernsteinJet<1>> jets[3];
+  for (int a = 0; a < 3; ++a)
+  {
+    for (int i = 0; i < points; ++i)
+    {
+      jets[a].emplace_back(i / (points - 1.0), 1.0 / (box[2 * a + 1] - box[2 * a]));
+    }
+  }
+  std::vector<double> values(points * points * points);
+  for (std::size_t m = 0; m < values.size(); ++m)
+  {
+    double gradients[9];
+    for (int c = 0; c < 3; ++c)
+    {
+      double jet[4];
+      PolynomialJet<1>(&bezier[64 * c], jets[0][m % points], jets[1][m / points % points],
+        jets[2][m / (points * points)], jet);
+      std::copy_n(jet + 1, 3, gradients + 3 * c);
+    }
+    values[m] = JacobianDeterminant(gradients);
+  }
+  return values;
+}
 }
 
 //------------------------------------------------------------------------------
@@ -122,27 +152,7 @@ std::vector<CellJacobian> BoundJacobian(
         for (Index cell = first + begin; cell < first + end; ++cell)
         {
           const auto box = mesh.Bounds(cell);
-          std::vector<BernsteinJet<1>> jets[3];
-          for (int a = 0; a < 3; ++a)
-          {
-            for (int i = 0; i < N; ++i)
-            {
-              jets[a].emplace_back(i / (N - 1.0), 1.0 / (box[2 * a + 1] - box[2 * a]));
-            }
-          }
-          Coefficients values(N * N * N);
-          for (int m = 0; m < N * N * N; ++m)
-          {
-            double gradients[9];
-            for (int c = 0; c < 3; ++c)
-            {
-              double jet[4];
-              PolynomialJet<1>(&bezier[64 * (3 * cell + c)], jets[0][m % N], jets[1][m / N % N],
-                jets[2][m / (N * N)], jet);
-              std::copy_n(jet + 1, 3, gradients + 3 * c);
-            }
-            values[m] = JacobianDeterminant(gradients);
-          }
+          Coefficients values = DeterminantsAt(N, box, &bezier[192 * cell]);
           bounds[cell].Sampled = *std::min_element(values.begin(), values.end());
           if (bounds[cell].Sampled > 0.0)
           {
@@ -151,6 +161,11 @@ std::vector<CellJacobian> BoundJacobian(
               values = Along(a, toCoefficients, values);
             }
             bounds[cell].Certified = IsPositive(values, 2);
+          }
+          if (!bounds[cell].Certified)
+          {
+            values = DeterminantsAt(FinePoints, box, &bezier[192 * cell]);
+            bounds[cell].Sampled = *std::min_element(values.begin(), values.end());
           }
         }
       });

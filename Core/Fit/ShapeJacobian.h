@@ -14,7 +14,7 @@ namespace trivariate
 {
 struct CellJacobian
 {
-  double Sampled = 0.0; ///< the smallest of 9 x 9 x 9 points of the cell, its corners among them
+  double Sampled = 0.0; ///< the smallest of 9^3 points of the cell, or where not proven of 33^3
   /// True: positive on the whole cell. The determinant is a polynomial of degree 8 in each
   /// direction; its Bernstein coefficients, on the cell or on parts of it, are all positive.
   bool Certified = false;
@@ -26,7 +26,7 @@ std::pair<double, double> JacobianAt(const TSpline& spline, const BezierMesh& me
 
 /**
  * One for each cell. The weighted functions must sum to one. About 50 microseconds a cell, eight
- * times as many where parts are needed.
+ * times as many where parts are needed, and some milliseconds where that does not help.
  */
 std::vector<CellJacobian> BoundJacobian(
   const TSpline& spline, const BezierMesh& mesh, const Execution& execution = {});
