@@ -212,8 +212,12 @@ void FoldEnergy::CountFinely(const ShapeNet& net)
       for (Index c = begin; c < end; ++c)
       {
         char& halvings = this->Halvings[c];
+        const auto leastAt = [&](int points)
+        { return this->LeastOf(c, this->DerivativesOf(c, net, points)); };
+        // The finest points, eight times as many as before, are for folds that only they show.
         while (halvings < MostHalvings &&
-               this->LeastOf(c, this->DerivativesOf(c, net, halvings + 1)) <= Nearly[int(halvings)])
+               (halvings + 1 < MostHalvings || leastAt(halvings) > 0.0) &&
+               leastAt(halvings + 1) <= Nearly[int(halvings)])
         {
           ++halvings;
         }
