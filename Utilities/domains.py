@@ -4,13 +4,15 @@
 """Finds domains of thresholded volumes and prints the tables of Documentation/Results.md.
 
     . BUILD/environment.sh
-    python3 Utilities/domains.py [--sweep] [--save FOLDER] [VOLUME=THRESHOLD[,THRESHOLD ...][+] ...]
+    python3 Utilities/domains.py [--sweep] [--one-cube] [--save FOLDER]
+                                 [VOLUME=THRESHOLD[,THRESHOLD ...][+] ...]
 
 Segment i of a volume is where the density exceeds i of the thresholds; with + the cavities of what
 exceeds the first one count to segment 1. What is made whole by
 Segment Topology goes through Segment Boundary (without density, whose half-way level is another than
 the threshold) and Polycube Domain, all else with their defaults. --sweep takes 20 thresholds a
-volume, evenly from the density that half of the voxels exceed to that which 100 exceed. The volumes
+volume, evenly from the density that half of the voxels exceed to that which 100 exceed. --one-cube
+makes corners so dear that there is one cube wherever one will do. The volumes
 are the .vti files of TRIVARIATE_DATA_DIR (default: ../shared/data). Each run is a process of its
 own; seconds are those of the processor.
 """
@@ -42,7 +44,7 @@ def write(output, file):
     writer.Write()
 
 
-def measure(run, folder):
+def measure(run, folder, one_cube):
     """One row, as a dictionary."""
     import numpy
     from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -52,6 +54,8 @@ def measure(run, folder):
     row = {"messages": ""}
     topology, boundary, domain = vtkSegmentTopology(), vtkSegmentBoundary(), vtkPolycubeDomain()
     boundary.UseDensityOff()
+    if one_cube:
+        domain.SetCornerCost(1.0)
     topology.SetInputData(segments.labelled(run))
     boundary.SetInputConnection(topology.GetOutputPort())
     domain.SetInputConnection(boundary.GetOutputPort())
@@ -95,6 +99,7 @@ def measure(run, folder):
 
 def in_a_process(run, folder):
     command = [sys.executable, __file__, "--one", run] + (["--save", folder] if folder else [])
+    command += ["--one-cube"] if arguments.one_cube else []
     done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=False)
     if done.returncode != 0:
         return {"messages": f"ended with {done.returncode}"}
@@ -148,11 +153,12 @@ parser = argparse.ArgumentParser(description=__doc__,
                                  formatter_class=argparse.RawDescriptionHelpFormatter)
 parser.add_argument("--one", help=argparse.SUPPRESS)
 parser.add_argument("--sweep", action="store_true", help="20 thresholds for each VOLUME")
+parser.add_argument("--one-cube", action="store_true", help="one cube where one will do")
 parser.add_argument("--save", metavar="FOLDER", help="where patches, borders and domains go")
 parser.add_argument("runs", nargs="*", metavar="VOLUME=THRESHOLD[,THRESHOLD ...]")
 arguments = parser.parse_args()
 if arguments.one:
-    print(json.dumps(measure(arguments.one, arguments.save)))
+    print(json.dumps(measure(arguments.one, arguments.save, arguments.one_cube)))
 elif arguments.sweep:
     sweep(arguments.runs or VOLUMES, arguments.save)
 else:
