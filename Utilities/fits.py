@@ -10,7 +10,7 @@ Each argument is a volume, its thresholds as in domains.py (i of them are exceed
 + cavities of what exceeds the first are filled), /cube for a domain without layers, the wanted edge
 of a hexahedron in space and the numbers of control points. The volumes "ball" and "bar" are phantoms;
 the bar is bent by 150 degrees. What has parameters is kept in FOLDER, made from domain, frames and
-parameterization if it is not there.
+parameterization if it is not there; the splines go there too.
 
 All voxels of the segments that exceed the first threshold and have parameters count, cavities do not.
 RMS is that of the round trip, the spline at the places of the voxels or at the points of it nearest to
@@ -36,7 +36,7 @@ from vtkmodules.vtkIOXML import (vtkXMLImageDataReader, vtkXMLImageDataWriter,
                                  vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter)
 
 from trivariate import (vtkFrameField, vtkPolycubeDomain, vtkSegmentBoundary, vtkSegmentTopology,
-                        vtkTSplineFit, vtkTSplineSource, vtkVolumeParameterization)
+                        vtkTSplineFit, vtkTSplineSource, vtkTSplineWriter, vtkVolumeParameterization)
 
 RAMP = 1.5
 data = pathlib.Path(os.environ.get("TRIVARIATE_DATA_DIR",
@@ -53,6 +53,13 @@ def write(writer, output, file):
     writer.SetInputDataObject(output)
     writer.SetFileName(str(file))
     writer.SetDataModeToBinary()
+    writer.Write()
+
+
+def write_spline(grid, file):
+    writer = vtkTSplineWriter()
+    writer.SetInputDataObject(grid)
+    writer.SetFileName(str(file))
     writer.Write()
 
 
@@ -126,8 +133,12 @@ def parameterize(volume, edge):
     return [parameters.GetOutputDataObject(port) for port in range(3)]
 
 
+def stem_of(volume, edge):
+    return f"{volume.replace('=', '_').replace(',', '_').replace('/', '_')}_{edge}"
+
+
 def load(folder, volume, edge):
-    stem = f"{volume.replace('=', '_').replace(',', '_').replace('/', '_')}_{edge}"
+    stem = stem_of(volume, edge)
     files = [folder / (stem + suffix) for suffix in (".vti", ".vtu")]
 
     def block(i):
@@ -238,6 +249,7 @@ def print_rows(folder, argument, share, with_baselines):
         grid, table, seconds = fit(image, count, domain, share)
         if grid.GetNumberOfPoints() == 0:
             continue
+        write_spline(grid, folder / f"{stem_of(volume, edge)}_{count}.tspline")
         squares, found = errors_of(grid, image)
         numbers = int(field_of(table, "NumbersStored"))
         distance, cells = field_of(table, "ShapeDistance"), field_of(table, "ShapeCells")
