@@ -4,7 +4,8 @@
 """Fits thresholded volumes over their domains and prints the table of Documentation/Results.md.
 
     . BUILD/environment.sh
-    python3 Utilities/fits.py [--baselines] [--share .5] FOLDER tooth=105+:4:2000,5000 fuel=15/cube:2:280,800 ...
+    python3 Utilities/fits.py [--baselines] [--share .5] FOLDER tooth=105+:4:2000,5000 \\
+      fuel=15/cube:2:280,800 ...
 
 Each argument is a volume, its thresholds as in domains.py (i of them are exceeded in segment i; with
 + cavities of what exceeds the first are filled), /cube for a domain without layers, the wanted edge
@@ -209,7 +210,7 @@ def errors_of(grid, image):
 
 
 def without_depth(density, depth, counted):
-    """What the best linear spline of the depth leaves of the density; ten knots, as many voxels between."""
+    """What the best linear spline of the depth leaves of the density; ten knots at its quantiles."""
     knots = numpy.unique(numpy.quantile(depth[counted], numpy.linspace(0, 1, 10)))
     basis = numpy.stack([numpy.interp(depth, knots, hat) for hat in numpy.eye(len(knots))], axis=1)
     solution = numpy.linalg.lstsq(basis[counted], density[counted], rcond=None)[0]

@@ -24,8 +24,8 @@ data = pathlib.Path(os.environ.get("TRIVARIATE_DATA_DIR", root.parent / "shared"
 def row(run):
     volume, count = run.split("=")
     folder = pathlib.Path(sys.argv[1]) / f"{volume}-{count}"
-    subprocess.run([root / "reconstruct.sh", data / f"{volume}.vti", "--domain", "box", "--output", folder,
-                    "--control-points", count], check=True, stdout=sys.stderr)
+    subprocess.run([root / "reconstruct.sh", data / f"{volume}.vti", "--domain", "box",
+                    "--output", folder, "--control-points", count], check=True, stdout=sys.stderr)
     report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
     return (f"| {volume} | {report['voxels']:,} | {report['control_points']:,} "
             f"| {report['bezier_cells']:,} | {report['rms_density_percent']:.3f} "
