@@ -197,6 +197,7 @@ private:
   void FollowData(Stage& stage, ScatteredSamples& samples, ShapeTarget& target, TSpline shape,
     const RefinementRule& rule)
   {
+    // What FitAttributes has made it, or a clone that Marks has put in its place.
     const auto& history = static_cast<const RefinementHistory&>(*this->Rule);
     double barrier = FollowBarrier;
     for (int follow = 0; follow < MostFollows && barrier >= LeastFollowBarrier; ++follow)
