@@ -118,36 +118,40 @@ vtkNew<vtkUnstructuredGrid> WithoutLayers(vtkUnstructuredGrid* polycubes)
 //------------------------------------------------------------------------------
 std::vector<std::string> LeaveOutInverted(vtkPolyData* patches, vtkUnstructuredGrid* polycubes)
 {
-  DomainBlocks all;
+  DomainBlocks blocks;
   for (vtkIdType p = 0; p < polycubes->GetNumberOfPoints(); ++p)
   {
-    polycubes->GetPoint(p, all.Places.emplace_back().data());
+    polycubes->GetPoint(p, blocks.Places.emplace_back().data());
   }
-  std::map<int, DomainBlocks> blocksOf;
   vtkDataArray* owners = polycubes->GetCellData()->GetArray("Segment");
+  const auto segmentOf = [owners](std::size_t block)
+  { return static_cast<int>(owners->GetTuple1(static_cast<vtkIdType>(block))); };
+  std::map<int, std::size_t> all, inverted; // blocks of each segment
+  vtkNew<vtkIdList> points;
   for (vtkIdType cell = 0; cell < polycubes->GetNumberOfCells(); ++cell)
   {
-    vtkNew<vtkIdList> points;
     polycubes->GetCellPoints(cell, points);
     DomainBlock block{ {}, -1 };
     std::copy_n(points->begin(), 8, block.Points.begin());
-    DomainBlocks& blocks = blocksOf[static_cast<int>(owners->GetTuple1(cell))];
     blocks.Blocks.push_back(block);
+    ++all[segmentOf(cell)];
+  }
+  for (const std::size_t block : InvertedBlocks(blocks))
+  {
+    ++inverted[segmentOf(block)];
   }
 
   std::vector<std::string> why;
   std::set<int> sound;
-  for (auto& [segment, blocks] : blocksOf)
+  for (const auto& [segment, count] : all)
   {
-    blocks.Places = all.Places;
-    const std::size_t inverted = InvertedBlocks(blocks).size();
-    if (2 * inverted < blocks.Blocks.size())
+    if (2 * inverted[segment] < count)
     {
       sound.insert(segment);
       continue;
     }
     why.push_back("Segment " + std::to_string(segment) + " is fitted over its bounding box: " +
-                  std::to_string(inverted) + " of " + std::to_string(blocks.Blocks.size()) +
+                  std::to_string(inverted[segment]) + " of " + std::to_string(count) +
                   " blocks of its domain are inverted or flat between their corners.");
   }
   const std::vector<vtkIdType> cells = CellsOf(polycubes, sound);
@@ -162,7 +166,6 @@ std::vector<std::string> LeaveOutInverted(vtkPolyData* patches, vtkUnstructuredG
   kept->GetPointData()->ShallowCopy(patches->GetPointData());
   kept->GetCellData()->CopyAllocate(patches->GetCellData());
   kept->AllocateEstimate(patches->GetNumberOfCells(), 3);
-  vtkNew<vtkIdList> points;
   for (const vtkIdType triangle : triangles)
   {
     patches->GetCellPoints(triangle, points);

@@ -48,8 +48,8 @@
  * largest distance of the spline from where its surface is wanted, in voxels), NumbersStored
  * (vtkIdType: three for each control point of the shape and one a component of the attributes for
  * each of all control points), VoxelsInside (vtkIdType
- * x 2: voxels that the shape passes through, of how many), VoxelsNear (vtkIdType: others, up to half
- * a voxel away from it, which take their nearest point), SmallestJacobian (double: least
+ * x 2: voxels that the shape passes through, of how many), VoxelsNear (vtkIdType: others, up to
+ * half a voxel away from it, which take their nearest point), SmallestJacobian (double: least
  * determinant of d(X, Y, Z)/d(u, v, w), in parts of its mean) and ShapeCells (vtkIdType x 3: Bezier
  * cells of the shape, those with a fold, those proven to have none).
  *

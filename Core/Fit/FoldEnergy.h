@@ -32,8 +32,8 @@ public:
     const Execution& execution);
 
   /// Cells count at 5 x 5 x 5 points; from now on those that fold or nearly fold at 9 x 9 x 9
-  /// there, of these those that fold at 17 x 17 x 17 there, and at 33 x 33 x 33 those that fold only
-  /// there.
+  /// there, of these those that fold at 17 x 17 x 17 there, and at 33 x 33 x 33 those that fold
+  /// only there.
   void CountFinely(const ShapeNet& net);
 
   struct Evaluation
