@@ -15,8 +15,7 @@ namespace
 {
 using Vector = std::array<double, 3>;
 
-constexpr double AcceptedResidual = 1e-10; // as shares of the size of the geometry
-constexpr double BestResidual = 1e-15;
+constexpr double BestResidual = 1e-15; // as shares of the size of the geometry
 constexpr double AffineTolerance = 1e-12;
 
 double Length(const Vector& x)

@@ -24,6 +24,8 @@
 
 namespace trivariate
 {
+class BezierPiece;
+
 class InverseMap
 {
 public:
@@ -47,7 +49,8 @@ public:
 
   /**
    * As Find, and where no cell maps there the parameters of the nearest point of the geometry, if
-   * it is less than `reach` away (a local minimum in each cell counts). False where the geometry is
+   * it is less than `reach` away: no other point is nearer by more than a thousandth. Pieces of
+   * cells are halved as long as their control points leave that open. False where the geometry is
    * affine and Find is.
    */
   bool FindNearest(const double point[3], double reach, double parameters[3]) const;
@@ -57,6 +60,8 @@ public:
     const Execution& execution = {}, double reach = 0.0) const;
 
 private:
+  static constexpr double AcceptedResidual = 1e-10; // of the size of the geometry
+
   using Vector = std::array<double, 3>;
 
   // Where a cell can be: a bounding volume hierarchy. A leaf is a cell, -1 - Children[0].
@@ -83,7 +88,11 @@ private:
   bool FindBelow(
     std::int32_t node, const Vector& point, int startsAnAxis, Vector& parameters) const;
   bool Evaluate(const Vector& point, Place& place) const;
-  void Approach(const Vector& point, Index cell, Place& nearest) const;
+  void Approach(
+    const Vector& point, const std::array<double, 6>& cell, Place here, Place& nearest) const;
+  double WorthTheSearch(const Place& nearest) const;
+  void NearestIn(const BezierPiece& piece, const std::array<double, 6>& cell, const Vector& point,
+    Place& nearest) const;
   void NearestBelow(std::int32_t node, const Vector& point, Place& nearest) const;
   bool Newton(const Vector& point, Vector& parameters) const;
   void ClampToDomain(Vector& parameters) const;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InverseMap.h"
 
+#include "BezierPiece.h"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -13,7 +15,8 @@ namespace trivariate
 namespace
 {
 constexpr int MaximumSteps = 40, MaximumHalvings = 12;
-constexpr double SmallestGain = 1e-9; // of the distance, in one step
+constexpr double SmallestGain = 1e-9;  // of the distance, in one step
+constexpr double WorthIt = 1.0 - 1e-3; // of the distance: what comes nearer than that is looked for
 
 // The distance of a point from a box.
 double DistanceFrom(const std::array<double, 3>& low, const std::array<double, 3>& high,
@@ -26,31 +29,20 @@ double DistanceFrom(const std::array<double, 3>& low, const std::array<double, 3
   }
   return outside.norm();
 }
+
+double DistanceBetween(const std::array<double, 3>& x, const std::array<double, 3>& y)
+{
+  return std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]);
+}
 }
 
 //------------------------------------------------------------------------------
-// Gauss-Newton steps from the nearest of 27 points of a cell, which stay in the cell: a parameter
-// at an end of it rests there as long as the distance falls outwards.
-void InverseMap::Approach(const Vector& point, Index cell, Place& nearest) const
+// Gauss-Newton steps, which stay in the cell: a parameter at an end of it rests there as long as
+// the distance falls outwards.
+void InverseMap::Approach(
+  const Vector& point, const std::array<double, 6>& bounds, Place here, Place& nearest) const
 {
-  const std::array<double, 6> bounds = this->Cells->Bounds(cell);
-  Place here;
-  here.Distance = std::numeric_limits<double>::infinity();
-  for (int start = 0; start < 27; ++start)
-  {
-    const int thirds[3] = { start % 3, start / 3 % 3, start / 9 };
-    Place place;
-    for (int a = 0; a < 3; ++a)
-    {
-      const double low = bounds[2 * a], high = bounds[2 * a + 1];
-      place.Parameters[a] = low + (high - low) * (thirds[a] + 0.5) / 3.0;
-    }
-    if (this->Evaluate(point, place) && place.Distance < here.Distance)
-    {
-      here = place;
-    }
-  }
-  if (!std::isfinite(here.Distance))
+  if (!this->Evaluate(point, here))
   {
     return;
   }
@@ -104,12 +96,61 @@ void InverseMap::Approach(const Vector& point, Index cell, Place& nearest) const
 }
 
 //------------------------------------------------------------------------------
+// A distance below which another place is worth the search.
+double InverseMap::WorthTheSearch(const Place& nearest) const
+{
+  return WorthIt * nearest.Distance - AcceptedResidual * this->Size;
+}
+
+//------------------------------------------------------------------------------
+// Halves the piece until no part of it can come nearer; goes from corners that do.
+void InverseMap::NearestIn(const BezierPiece& piece, const std::array<double, 6>& cell,
+  const Vector& point, Place& nearest) const
+{
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    Place start;
+    start.Parameters = piece.CornerParameters(corner);
+    if (DistanceBetween(piece.Corner(corner), point) < this->WorthTheSearch(nearest))
+    {
+      this->Approach(point, cell, start, nearest);
+    }
+  }
+  std::array<BezierPiece, 2> halves = piece.Halves();
+  std::array<double, 2> least = { halves[0].LeastDistance(point), halves[1].LeastDistance(point) };
+  const int first = least[1] < least[0];
+  for (const int half : { first, 1 - first })
+  {
+    if (least[half] < this->WorthTheSearch(nearest))
+    {
+      this->NearestIn(halves[half], cell, point, nearest);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 void InverseMap::NearestBelow(std::int32_t node, const Vector& point, Place& nearest) const
 {
   const Node& here = this->Tree[node];
   if (here.Children[0] < 0)
   {
-    this->Approach(point, -1 - here.Children[0], nearest);
+    const Index cell = -1 - here.Children[0];
+    const std::array<double, 6> bounds = this->Cells->Bounds(cell);
+    const BezierPiece piece(bounds, this->Geometry->Coefficients(cell), this->Geometry->Rational());
+    const double least = piece.LeastDistance(point);
+    if (least < nearest.Distance)
+    {
+      Place middle;
+      for (int a = 0; a < 3; ++a)
+      {
+        middle.Parameters[a] = 0.5 * (bounds[2 * a] + bounds[2 * a + 1]);
+      }
+      this->Approach(point, bounds, middle, nearest);
+    }
+    if (least < this->WorthTheSearch(nearest))
+    {
+      this->NearestIn(piece, bounds, point, nearest);
+    }
     return;
   }
   std::array<std::int32_t, 2> children = here.Children;
@@ -140,7 +181,7 @@ bool InverseMap::FindNearest(const double point[3], double reach, double paramet
     return false;
   }
   Place nearest;
-  nearest.Distance = reach;
+  nearest.Distance = (reach + AcceptedResidual * this->Size) / WorthIt;
   this->NearestBelow(0, { point[0], point[1], point[2] }, nearest);
   if (nearest.Distance < reach)
   {
