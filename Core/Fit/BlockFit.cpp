@@ -98,7 +98,7 @@ public:
     ScatteredSamples samples;
     samples.Components = this->Voxels.Components;
     samples.Values = this->Voxels.Values;
-    samples.Parameters = this->FindParameters(this->Result.Spline);
+    samples.Parameters = this->FindParameters(this->Result.Spline, this->Voxels.Parameters);
     this->FitAttributes(samples, target);
     const SharedPoints shared = this->Layout.Share(this->Result.Spline);
     this->Result.PointOf = shared.PointOf;
@@ -146,12 +146,12 @@ private:
   // Voxels that are still outside pull the surface next to them over themselves.
   void CoverVoxels(ShapeTarget& target)
   {
-    std::vector<double> places = this->Voxels.Places;
+    std::vector<double> places = this->Voxels.Places, starts = this->Voxels.Parameters;
     for (int pull = 0; pull < Pulls; ++pull)
     {
       const BezierMesh mesh(this->Result.Spline, this->Run);
       const FoundParameters found =
-        FindParametersOnShape(this->Result.Spline, mesh, places, this->Run);
+        FindParametersOnShape(this->Result.Spline, mesh, places, starts, this->Run);
       std::vector<double> outside, feet;
       for (const Index i : found.Outside)
       {
@@ -170,6 +170,7 @@ private:
       this->SlideToSurface(stage, true);
       this->Measure(stage);
       places = std::move(outside);
+      starts = std::move(feet);
     }
   }
 
@@ -206,7 +207,7 @@ private:
       const std::vector<double> parameters = samples.Parameters;
       TSpline moved = shape;
       this->MoveToData(stage, samples, barrier, target, moved);
-      samples.Parameters = this->FindParameters(moved);
+      samples.Parameters = this->FindParameters(moved, parameters);
       this->Result.Spline = moved;
       history.Repeat(rule, this->Result.Spline);
       for (Index i = 0; i < before.Spline.Size(); ++i)
@@ -269,12 +270,13 @@ private:
     stage.System.ComputeResiduals(spline);
     this->Solve(stage, FinalTolerance, FinalIterations);
     this->Measure(stage);
-    while (true)
+    for (bool isSolved = true;;)
     {
       const bool isGood = this->IsGoodEnough(stage);
       const bool isRefined = !isGood && this->RefineOnce(stage);
       if (isRefined)
       {
+        isSolved = false;
         this->Update(stage);
         stage.System.ComputeResiduals(spline);
         this->Lap("sort");
@@ -282,6 +284,11 @@ private:
         this->Measure(stage);
         continue;
       }
+      if (isSolved)
+      {
+        return;
+      }
+      isSolved = true;
       this->Result.Rounds.pop_back();
       this->Solve(stage, FinalTolerance, FinalIterations);
       this->Measure(stage);
@@ -389,11 +396,13 @@ private:
     return isRefined;
   }
 
-  // Where the voxels are on a shape; keeps what there is to know about it.
-  std::vector<double> FindParameters(const TSpline& shape)
+  // Where the voxels are on a shape, looked for from `starts`; keeps what there is to know about
+  // it.
+  std::vector<double> FindParameters(const TSpline& shape, const std::vector<double>& starts)
   {
     const BezierMesh mesh(shape, this->Run);
-    FoundParameters found = FindParametersOnShape(shape, mesh, this->Voxels.Places, this->Run);
+    FoundParameters found =
+      FindParametersOnShape(shape, mesh, this->Voxels.Places, starts, this->Run);
     this->Result.VoxelsInside = found.Inside;
     this->Result.VoxelsNear = std::count_if(found.Distances.begin(), found.Distances.end(),
       [this](double distance) { return distance <= 0.5 * this->Options.Spacing; });

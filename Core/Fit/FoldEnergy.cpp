@@ -25,23 +25,25 @@ constexpr double Shallow = 0.005;  // and not less than of a fold so deep
 
 constexpr double Evenness = 1.0; // the size counts as much as the shape
 
-// A determinant so small at twice as many points makes them count.
-constexpr double Nearly[] = { 0.1, 0.002, 0.0 };
+constexpr int PartLine = 5; // points of a part along each axis
 
-// The cubic Bernstein polynomials, and their derivatives, at points of the unit interval.
+// A part of a cell, of each level, is halved along all axes where points of its halves have a
+// determinant so small.
+constexpr double Nearly[] = { 0.1, 0.02, 0.005 };
+constexpr int MostHalvings = 3;
+
+// The cubic Bernstein polynomials, and their derivatives, at five equal distances of an interval in
+// the unit interval, its ends among them.
 struct Line
 {
-  using Values = Eigen::Matrix<double, Eigen::Dynamic, 4>;
+  using Values = Eigen::Matrix<double, PartLine, 4>;
   Values Polynomials, Slopes;
 
-  // At equal distances, the ends among them.
-  explicit Line(int points)
-    : Polynomials(points, 4)
-    , Slopes(points, 4)
+  Line(int halvings, int place)
   {
-    for (int i = 0; i < points; ++i)
+    for (int i = 0; i < PartLine; ++i)
     {
-      const double s = i / (points - 1.0), r = 1.0 - s;
+      const double s = (place + i / (PartLine - 1.0)) / (1 << halvings), r = 1.0 - s;
       this->Polynomials.row(i) << r * r * r, 3 * r * r * s, 3 * r * s * s, s * s * s;
       this->Slopes.row(i) << -3 * r * r, 3 * r * (r - 2 * s), 3 * s * (2 * r - s), 3 * s * s;
     }
@@ -51,50 +53,66 @@ struct Line
   {
     return direction == derivative ? this->Slopes : this->Polynomials;
   }
-  Index Size() const { return this->Polynomials.rows(); }
 };
 
-constexpr int MostHalvings = 3;
-
-const Line& PointsOf(int halvings)
+const Line& LineOf(int halvings, int place)
 {
-  static const Line lines[MostHalvings + 1] = { Line(5), Line(9), Line(17), Line(33) };
-  return lines[halvings];
+  static const std::vector<Line> lines = []()
+  {
+    std::vector<Line> all;
+    for (int h = 0; h <= MostHalvings; ++h)
+    {
+      for (int i = 0; i < 1 << h; ++i)
+      {
+        all.emplace_back(h, i);
+      }
+    }
+    return all;
+  }();
+  return lines[(1 << halvings) - 1 + place];
 }
 
-using Plane = Eigen::Matrix<double, 16, Eigen::Dynamic>;
-using Pencil = Eigen::Matrix<double, 4, Eigen::Dynamic>;
+// The polynomials along u, v, w at the points of a part.
+using Lines = std::array<const Line*, 3>;
+using Plane = Eigen::Matrix<double, 16, PartLine>;
+using Pencil = Eigen::Matrix<double, 4, PartLine * PartLine>;
+using PointGrid = Eigen::Matrix<double, PartLine, PartLine * PartLine>;
 
 // The derivative along a of the polynomial with 64 coefficients at all points, u fastest.
 template <typename Coefficients, typename Values>
-void Expand(const Line& line, int a, const Coefficients& coefficients, Values&& values)
+void Expand(const Lines& lines, int a, const Coefficients& coefficients, Values&& values)
 {
-  const Index n = line.Size();
   const Plane planes = Eigen::Map<const Eigen::Matrix<double, 16, 4>>(coefficients.data()) *
-                       line.Along(2, a).transpose();
-  Pencil pencils(4, n * n);
-  for (Index k = 0; k < n; ++k)
+                       lines[2]->Along(2, a).transpose();
+  Pencil pencils;
+  for (int k = 0; k < PartLine; ++k)
   {
-    pencils.middleCols(n * k, n).noalias() =
-      Eigen::Map<const Eigen::Matrix4d>(planes.col(k).data()) * line.Along(1, a).transpose();
+    pencils.template middleCols<PartLine>(PartLine * k).noalias() =
+      Eigen::Map<const Eigen::Matrix4d>(planes.col(k).data()) * lines[1]->Along(1, a).transpose();
   }
-  Eigen::Map<Eigen::MatrixXd>(values.data(), n, n * n).noalias() = line.Along(0, a) * pencils;
+  Eigen::Map<PointGrid>(values.data()).noalias() = lines[0]->Along(0, a) * pencils;
 }
 
 // The transposed map: adds to the 64 coefficients.
 template <typename Values, typename Coefficients>
-void Reduce(const Line& line, int a, const Values& values, Coefficients&& coefficients)
+void Reduce(const Lines& lines, int a, const Values& values, Coefficients&& coefficients)
 {
-  const Index n = line.Size();
   const Pencil pencils =
-    line.Along(0, a).transpose() * Eigen::Map<const Eigen::MatrixXd>(values.data(), n, n * n);
-  Plane planes(16, n);
-  for (Index k = 0; k < n; ++k)
+    lines[0]->Along(0, a).transpose() * Eigen::Map<const PointGrid>(values.data());
+  Plane planes;
+  for (int k = 0; k < PartLine; ++k)
   {
     Eigen::Map<Eigen::Matrix4d>(planes.col(k).data()).noalias() =
-      pencils.middleCols(n * k, n) * line.Along(1, a);
+      pencils.template middleCols<PartLine>(PartLine * k) * lines[1]->Along(1, a);
   }
-  Eigen::Map<Eigen::Matrix<double, 16, 4>>(coefficients.data()) += planes * line.Along(2, a);
+  Eigen::Map<Eigen::Matrix<double, 16, 4>>(coefficients.data()) += planes * lines[2]->Along(2, a);
+}
+
+template <typename Part>
+Lines LinesOf(const Part& part)
+{
+  return { &LineOf(part.Halvings, part.Place[0]), &LineOf(part.Halvings, part.Place[1]),
+    &LineOf(part.Halvings, part.Place[2]) };
 }
 
 // J at a point from its row.
@@ -133,15 +151,20 @@ double Dot(const Matrix3d& a, const Matrix3d& b)
 }
 
 //------------------------------------------------------------------------------
+// What a point of a part counts of the mean over all cells.
+double FoldEnergy::ShareOfPoint(const Part& part) const
+{
+  return 1.0 / static_cast<double>((PartPoints << 3 * part.Halvings) * this->Cells.size());
+}
+
+//------------------------------------------------------------------------------
 FoldEnergy::FoldEnergy(const BezierMesh& mesh, const SharedPoints& points, const ShapeNet& net,
   const Execution& execution)
   : Run(execution)
   , Points(points.Count())
   , Cells(mesh.Size())
-  , Halvings(mesh.Size(), 0)
   , Regularisation(mesh.Size(), Sharp)
   , Bluntness(mesh.Size(), Blunt)
-  , Curvature(mesh.Size())
 {
   this->Run.ParallelFor(mesh.Size(),
     [&](Index begin, Index end)
@@ -162,7 +185,7 @@ FoldEnergy::FoldEnergy(const BezierMesh& mesh, const SharedPoints& points, const
           cell.Extraction.col(n) = Eigen::Map<Eigen::Matrix<double, 64, 1>>(form.data());
         }
         const Vector3d ones = Vector3d::Ones();
-        const Derivatives derivatives = this->DerivativesOf(c, net, 0);
+        const Derivatives derivatives = DerivativesOf(this->BezierOf(c, net), Part{ c, 0, {} });
         Vector3d squares = Vector3d::Zero();
         for (Index point = 0; point < derivatives.rows(); ++point)
         {
@@ -171,10 +194,14 @@ FoldEnergy::FoldEnergy(const BezierMesh& mesh, const SharedPoints& points, const
         cell.Lengths = (squares / static_cast<double>(derivatives.rows())).cwiseSqrt();
       }
     });
+  for (Index c = 0; c < mesh.Size(); ++c)
+  {
+    this->Parts.push_back({ c, 0, {} });
+  }
 }
 
 //------------------------------------------------------------------------------
-FoldEnergy::Derivatives FoldEnergy::DerivativesOf(Index c, const ShapeNet& net, int halvings) const
+FoldEnergy::Bezier FoldEnergy::BezierOf(Index c, const ShapeNet& net) const
 {
   const Cell& cell = this->Cells[c];
   Eigen::MatrixX3d own(cell.Points.size(), 3);
@@ -182,12 +209,17 @@ FoldEnergy::Derivatives FoldEnergy::DerivativesOf(Index c, const ShapeNet& net, 
   {
     own.row(n) = net.row(cell.Points[n]);
   }
-  const Eigen::Matrix<double, 64, 3> bezier = cell.Extraction * own;
-  const Line& line = PointsOf(halvings);
-  Derivatives derivatives(line.Size() * line.Size() * line.Size(), 9);
+  return cell.Extraction * own;
+}
+
+//------------------------------------------------------------------------------
+FoldEnergy::Derivatives FoldEnergy::DerivativesOf(const Bezier& bezier, const Part& part)
+{
+  const Lines lines = LinesOf(part);
+  Derivatives derivatives;
   for (int m = 0; m < 9; ++m)
   {
-    Expand(line, m / 3, bezier.col(m % 3), derivatives.col(m));
+    Expand(lines, m / 3, bezier.col(m % 3), derivatives.col(m));
   }
   return derivatives;
 }
@@ -204,52 +236,81 @@ double FoldEnergy::LeastOf(Index c, const Derivatives& derivatives) const
 }
 
 //------------------------------------------------------------------------------
+// Adds the part, or its eighths and theirs where one of them nearly folds.
+void FoldEnergy::Halve(const Bezier& bezier, const Part& part, std::vector<Part>& parts) const
+{
+  std::array<Part, 8> eighths;
+  double least = std::numeric_limits<double>::max();
+  for (int e = 0; e < 8 && part.Halvings < MostHalvings; ++e)
+  {
+    eighths[e] = { part.Cell, part.Halvings + 1, {} };
+    for (int a = 0; a < 3; ++a)
+    {
+      eighths[e].Place[a] = 2 * part.Place[a] + (e >> a & 1);
+    }
+    least = std::min(least, this->LeastOf(part.Cell, DerivativesOf(bezier, eighths[e])));
+  }
+  if (part.Halvings == MostHalvings || least > Nearly[part.Halvings])
+  {
+    parts.push_back(part);
+    return;
+  }
+  for (const Part& eighth : eighths)
+  {
+    this->Halve(bezier, eighth, parts);
+  }
+}
+
+//------------------------------------------------------------------------------
 void FoldEnergy::CountFinely(const ShapeNet& net)
 {
-  this->Run.ParallelFor(static_cast<Index>(this->Cells.size()),
+  const auto count = static_cast<Index>(this->Parts.size());
+  std::vector<std::vector<Part>> halved(count);
+  this->Run.ParallelFor(count,
     [&](Index begin, Index end)
     {
-      for (Index c = begin; c < end; ++c)
+      for (Index p = begin; p < end; ++p)
       {
-        char& halvings = this->Halvings[c];
-        const auto leastAt = [&](int points)
-        { return this->LeastOf(c, this->DerivativesOf(c, net, points)); };
-        // The finest points, eight times as many as before, are for folds that only they show.
-        while (halvings < MostHalvings &&
-               (halvings + 1 < MostHalvings || leastAt(halvings) > 0.0) &&
-               leastAt(halvings + 1) <= Nearly[int(halvings)])
-        {
-          ++halvings;
-        }
+        this->Halve(this->BezierOf(this->Parts[p].Cell, net), this->Parts[p], halved[p]);
       }
     });
+  this->Parts.clear();
+  for (const std::vector<Part>& parts : halved)
+  {
+    this->Parts.insert(this->Parts.end(), parts.begin(), parts.end());
+  }
 }
 
 //------------------------------------------------------------------------------
 FoldEnergy::Evaluation FoldEnergy::Evaluate(const ShapeNet& net) const
 {
-  const auto count = static_cast<Index>(this->Cells.size());
-  std::vector<double> energies(count, 0.0);
-  Evaluation evaluation;
-  evaluation.Least.resize(count);
+  const auto count = static_cast<Index>(this->Parts.size());
+  std::vector<double> energies(count, 0.0), least(count);
   this->Run.ParallelFor(count,
     [&](Index begin, Index end)
     {
-      for (Index c = begin; c < end; ++c)
+      for (Index p = begin; p < end; ++p)
       {
-        const Derivatives derivatives = this->DerivativesOf(c, net, this->Halvings[c]);
-        evaluation.Least[c] = this->LeastOf(c, derivatives);
+        const Part& part = this->Parts[p];
+        const Derivatives derivatives = DerivativesOf(this->BezierOf(part.Cell, net), part);
+        least[p] = this->LeastOf(part.Cell, derivatives);
         for (Index point = 0; point < derivatives.rows(); ++point)
         {
-          const Matrix3d j = JacobianOf(derivatives, point, this->Cells[c].Lengths);
-          energies[c] +=
-            CornerEnergy(j.squaredNorm(), j.determinant(), this->Regularisation[c], Evenness);
+          const Matrix3d j = JacobianOf(derivatives, point, this->Cells[part.Cell].Lengths);
+          energies[p] += CornerEnergy(
+            j.squaredNorm(), j.determinant(), this->Regularisation[part.Cell], Evenness);
         }
-        energies[c] /= static_cast<double>(derivatives.rows());
+        energies[p] *= this->ShareOfPoint(part);
       }
     });
-  evaluation.Energy =
-    std::accumulate(energies.begin(), energies.end(), 0.0) / static_cast<double>(count);
+  Evaluation evaluation;
+  evaluation.Energy = std::accumulate(energies.begin(), energies.end(), 0.0);
+  evaluation.Least.assign(this->Cells.size(), std::numeric_limits<double>::max());
+  for (Index p = 0; p < count; ++p)
+  {
+    double& ofCell = evaluation.Least[this->Parts[p].Cell];
+    ofCell = std::min(ofCell, least[p]);
+  }
   return evaluation;
 }
 
@@ -268,32 +329,39 @@ void FoldEnergy::Regularise(const std::vector<double>& least)
 }
 
 //------------------------------------------------------------------------------
-// The sum over cells of what visit(cell, rows) makes of rows for the derivatives at points of the
-// cell: the derivative of the energy by each, as one by the net.
+// The sum over parts of what visit(p, part, rows) makes of rows for the derivatives at points of
+// part p: the derivative of the energy by each, as one by the net.
 template <typename Visit>
-ShapeNet FoldEnergy::Collect(const Visit& visit) const
+ShapeNet FoldEnergy::Collect(const ShapeNet& net, const Visit& visit) const
 {
   const std::vector<double> sums =
-    SumOfParts(static_cast<Index>(this->Cells.size()), 3 * this->Points, this->Run,
+    SumOfParts(static_cast<Index>(this->Parts.size()), 3 * this->Points, this->Run,
       [&](Index first, Index last, std::vector<double>& part)
       {
-        Eigen::Map<ShapeNet> net(part.data(), this->Points, 3);
-        Derivatives rows;
-        for (Index c = first; c < last; ++c)
+        Eigen::Map<ShapeNet> sum(part.data(), this->Points, 3);
+        for (Index p = first; p < last;)
         {
+          // The parts of one cell.
+          const Index c = this->Parts[p].Cell;
           const Cell& cell = this->Cells[c];
-          visit(c, rows);
-          Eigen::Matrix<double, 64, 3> bezier = Eigen::Matrix<double, 64, 3>::Zero();
-          for (int m = 0; m < 9; ++m)
+          const Bezier own = this->BezierOf(c, net);
+          Bezier slopes = Bezier::Zero();
+          for (; p < last && this->Parts[p].Cell == c; ++p)
           {
-            Reduce(PointsOf(this->Halvings[c]), m / 3, rows.col(m), bezier.col(m % 3));
+            const Part& part = this->Parts[p];
+            Derivatives rows = DerivativesOf(own, part);
+            visit(p, part, rows);
+            rows *= this->ShareOfPoint(part);
+            const Lines lines = LinesOf(part);
+            for (int m = 0; m < 9; ++m)
+            {
+              Reduce(lines, m / 3, rows.col(m), slopes.col(m % 3));
+            }
           }
-          const Eigen::MatrixX3d own = cell.Extraction.transpose() * bezier;
-          const double factor =
-            1.0 / static_cast<double>(rows.rows() * static_cast<Index>(this->Cells.size()));
+          const Eigen::MatrixX3d ofPoints = cell.Extraction.transpose() * slopes;
           for (std::size_t n = 0; n < cell.Points.size(); ++n)
           {
-            net.row(cell.Points[n]) += factor * own.row(n);
+            sum.row(cell.Points[n]) += ofPoints.row(n);
           }
         }
       });
@@ -303,21 +371,19 @@ ShapeNet FoldEnergy::Collect(const Visit& visit) const
 //------------------------------------------------------------------------------
 ShapeNet FoldEnergy::Differentiate(const ShapeNet& net)
 {
-  return this->Collect(
-    [&](Index c, Derivatives& rows)
+  this->Curvature.resize(this->Parts.size());
+  return this->Collect(net,
+    [&](Index p, const Part& part, Derivatives& rows)
     {
-      const Vector3d& lengths = this->Cells[c].Lengths;
-      rows = this->DerivativesOf(c, net, this->Halvings[c]);
-      std::vector<PointCurvature>& curvature = this->Curvature[c];
-      curvature.resize(rows.rows());
+      const Vector3d& lengths = this->Cells[part.Cell].Lengths;
       for (Index point = 0; point < rows.rows(); ++point)
       {
-        PointCurvature& at = curvature[point];
+        PointCurvature& at = this->Curvature[p][point];
         at.Jacobian = JacobianOf(rows, point, lengths);
         at.Cofactors = CofactorsOf(at.Jacobian);
         const double trace = at.Jacobian.squaredNorm();
-        const EnergyDerivatives e = CornerDerivatives(
-          trace, at.Jacobian.col(0).dot(at.Cofactors.col(0)), this->Regularisation[c], Evenness);
+        const EnergyDerivatives e = CornerDerivatives(trace,
+          at.Jacobian.col(0).dot(at.Cofactors.col(0)), this->Regularisation[part.Cell], Evenness);
         at.ByTrace = e.ByTrace;
         at.ByBoth = e.ByBoth;
         // With |J|^2 and D as unknowns of their own this makes the energy convex.
@@ -332,14 +398,13 @@ ShapeNet FoldEnergy::Differentiate(const ShapeNet& net)
 //------------------------------------------------------------------------------
 ShapeNet FoldEnergy::Curve(const ShapeNet& direction) const
 {
-  return this->Collect(
-    [&](Index c, Derivatives& rows)
+  return this->Collect(direction,
+    [&](Index p, const Part& part, Derivatives& rows)
     {
-      const Vector3d& lengths = this->Cells[c].Lengths;
-      rows = this->DerivativesOf(c, direction, this->Halvings[c]);
+      const Vector3d& lengths = this->Cells[part.Cell].Lengths;
       for (Index point = 0; point < rows.rows(); ++point)
       {
-        const PointCurvature& at = this->Curvature[c][point];
+        const PointCurvature& at = this->Curvature[p][point];
         const Matrix3d d = JacobianOf(rows, point, lengths);
         const double trace = 2.0 * Dot(at.Jacobian, d), determinant = Dot(at.Cofactors, d);
         const Matrix3d curve =
@@ -358,7 +423,7 @@ Eigen::SparseMatrix<double> FoldEnergy::CurvatureOfCubes() const
   // Of 2 s |dJ|^2 + d (I : dJ)^2, the second spread over all directions.
   const double factor = 2.0 * e.ByTrace + e.ByDeterminantTwice / 3.0;
   // The sum over points is a product of sums along u, v, w.
-  const Line& line = PointsOf(0);
+  const Line& line = LineOf(0, 0);
   const Eigen::Matrix4d values = line.Polynomials.transpose() * line.Polynomials;
   const Eigen::Matrix4d slopes = line.Slopes.transpose() * line.Slopes;
   for (const Cell& cell : this->Cells)
@@ -380,8 +445,7 @@ Eigen::SparseMatrix<double> FoldEnergy::CurvatureOfCubes() const
       }
       bezier(i, j) = sum;
     }
-    const double points = std::pow(static_cast<double>(line.Size()), 3);
-    const double scale = factor / (points * static_cast<double>(this->Cells.size()));
+    const double scale = factor / static_cast<double>(PartPoints * this->Cells.size());
     const Eigen::MatrixXd own = scale * cell.Extraction.transpose() * bezier * cell.Extraction;
     for (Index i = 0; i < own.rows(); ++i)
     {

@@ -18,6 +18,7 @@
 #include <Eigen/SparseCore>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace trivariate
@@ -31,9 +32,9 @@ public:
   FoldEnergy(const BezierMesh& mesh, const SharedPoints& points, const ShapeNet& net,
     const Execution& execution);
 
-  /// Cells count at 5 x 5 x 5 points; from now on those that fold or nearly fold at 9 x 9 x 9
-  /// there, of these those that fold at 17 x 17 x 17 there, and at 33 x 33 x 33 those that fold
-  /// only there.
+  /// Cells count at 5 x 5 x 5 points. From now on parts of them that fold or nearly fold count at
+  /// twice as many along each axis, parts of these that come nearer yet at four times, and where
+  /// they fold at eight times as many.
   void CountFinely(const ShapeNet& net);
 
   struct Evaluation
@@ -58,12 +59,21 @@ public:
   Eigen::SparseMatrix<double> CurvatureOfCubes() const;
 
 private:
-  using Derivatives = Eigen::Matrix<double, Eigen::Dynamic, 9>;
+  static constexpr Index PartPoints = 125; // 5 along each axis, the ends among them
+  using Bezier = Eigen::Matrix<double, 64, 3>;
+  using Derivatives = Eigen::Matrix<double, PartPoints, 9>;
   struct Cell
   {
     std::vector<std::int32_t> Points; // of its functions
     Eigen::MatrixXd Extraction;       // from their coefficients to the 64 of Bernstein
     Eigen::Vector3d Lengths;
+  };
+  // A cell that was halved so often along each axis has 2^Halvings places along each.
+  struct Part
+  {
+    Index Cell;
+    int Halvings;
+    std::array<int, 3> Place;
   };
   // At a point: how the energy changes with J.
   struct PointCurvature
@@ -72,19 +82,22 @@ private:
     double ByTrace, ByBoth, ByDeterminantTwice;
   };
 
-  // J at points of a cell, but along a unit cube: a row each, column after column.
-  Derivatives DerivativesOf(Index cell, const ShapeNet& net, int halvings) const;
+  Bezier BezierOf(Index cell, const ShapeNet& net) const;
+  // J at points of a part, but along the unit cube of its cell: a row each, column after column.
+  static Derivatives DerivativesOf(const Bezier& bezier, const Part& part);
   double LeastOf(Index cell, const Derivatives& derivatives) const;
+  void Halve(const Bezier& bezier, const Part& part, std::vector<Part>& parts) const;
+  double ShareOfPoint(const Part& part) const;
   template <typename Visit>
-  ShapeNet Collect(const Visit& visit) const;
+  ShapeNet Collect(const ShapeNet& net, const Visit& visit) const;
 
   const Execution& Run;
   Index Points;
   std::vector<Cell> Cells;
-  std::vector<char> Halvings;         // of the points of each cell
+  std::vector<Part> Parts;            // of all cells in their order
   std::vector<double> Regularisation; // of each cell
   std::vector<double> Bluntness;      // of each cell, the next one in parts of its determinant
-  std::vector<std::vector<PointCurvature>> Curvature;
+  std::vector<std::array<PointCurvature, PartPoints>> Curvature; // of each part
 };
 }
 

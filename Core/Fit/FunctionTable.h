@@ -8,8 +8,8 @@
 #ifndef trivariate_FunctionTable_h
 #define trivariate_FunctionTable_h
 
-#include "TSpline/BlendingFunctionMap.h"
 #include "MomentPyramid.h"
+#include "TSpline/BlendingFunctionMap.h"
 
 namespace trivariate
 {

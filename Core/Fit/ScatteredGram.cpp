@@ -15,8 +15,9 @@ namespace trivariate
 {
 namespace
 {
-constexpr Index CellsOfBlock = 128;
-constexpr int Batch = 8; // samples that are added at once
+constexpr Index MostCells = 128;   // of a block,
+constexpr Index EnoughBlocks = 64; // for any number of threads
+constexpr int Batch = 8;           // samples that are added at once
 
 // lower(G) += sum over Batch rows r of r r^T; rows of `stride` numbers.
 TRIVARIATE_CLONES void AddRows(const float* rows, int n, int stride, float* gram)
@@ -201,19 +202,21 @@ GramMatrix ScatteredSystem::Assemble()
     std::vector<std::pair<std::int32_t, std::pair<Index, Index>>> Rows; // point, range
     std::vector<std::pair<std::int32_t, double>> Norms;
   };
-  const Index blocks = (this->Cells->Size() + CellsOfBlock - 1) / CellsOfBlock;
+  const Index cells = this->Cells->Size();
+  const Index ofBlock = std::clamp<Index>(cells / EnoughBlocks, 1, MostCells);
+  const Index blocks = (cells + ofBlock - 1) / ofBlock;
   std::vector<SparseBlock> sparse(blocks);
   constexpr Index Batch = 32; // blocks between two looks at the abort flag
   for (Index firstBlock = 0; firstBlock < blocks; firstBlock += Batch)
   {
     this->Run.Check(0.0);
     this->Run.ParallelFor(std::min(Batch, blocks - firstBlock),
-      [this, &sparse, firstBlock](Index begin, Index end)
+      [this, &sparse, firstBlock, ofBlock, cells](Index begin, Index end)
       {
         for (Index b = firstBlock + begin; b < firstBlock + end; ++b)
         {
-          const LocalMatrix matrix = this->AssembleBlock(
-            b * CellsOfBlock, std::min(this->Cells->Size(), (b + 1) * CellsOfBlock));
+          const LocalMatrix matrix =
+            this->AssembleBlock(b * ofBlock, std::min(cells, (b + 1) * ofBlock));
           const std::size_t size = matrix.Points.size();
           SparseBlock& out = sparse[b];
           for (std::size_t r = 0; r < size; ++r)

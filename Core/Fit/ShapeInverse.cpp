@@ -11,16 +11,46 @@
 
 namespace trivariate
 {
+namespace
+{
+void FindFromStarts(const InverseMap& inverse, const std::vector<double>& places,
+  std::vector<double>& parameters, std::vector<std::uint8_t>& found, const Execution& execution)
+{
+  constexpr Index Batch = 1 << 16; // between two looks at the abort flag
+  const auto n = static_cast<Index>(found.size());
+  for (Index first = 0; first < n; first += Batch)
+  {
+    execution.Check(0.0);
+    execution.ParallelFor(std::min(Batch, n - first),
+      [&](Index begin, Index end)
+      {
+        for (Index i = first + begin; i < first + end; ++i)
+        {
+          found[i] = inverse.FindFrom(&places[3 * i], &parameters[3 * i]);
+        }
+      });
+  }
+}
+}
+
 //------------------------------------------------------------------------------
 FoundParameters FindParametersOnShape(const TSpline& spline, const BezierMesh& mesh,
-  const std::vector<double>& places, const Execution& execution)
+  const std::vector<double>& places, const std::vector<double>& starts, const Execution& execution)
 {
   const InverseMap inverse(spline, mesh, execution);
   const Index n = static_cast<Index>(places.size() / 3);
   FoundParameters result;
-  result.Parameters.resize(3 * n);
   std::vector<std::uint8_t> found(n);
-  inverse.Find(n, places.data(), result.Parameters.data(), found.data(), execution);
+  if (starts.empty())
+  {
+    result.Parameters.resize(3 * n);
+    inverse.Find(n, places.data(), result.Parameters.data(), found.data(), execution);
+  }
+  else
+  {
+    result.Parameters = starts;
+    FindFromStarts(inverse, places, result.Parameters, found, execution);
+  }
   for (Index i = 0; i < n; ++i)
   {
     if (!found[i])

@@ -20,9 +20,10 @@ struct FoundParameters
 };
 
 /// `places`: (X, Y, Z) of each. One that the shape does not reach gets the parameters of its
-/// nearest point (see InverseMap::FindNearest).
+/// nearest point (see InverseMap::FindNearest). `starts`: where each was on a shape much like this,
+/// or empty; each is looked for from there first.
 FoundParameters FindParametersOnShape(const TSpline& spline, const BezierMesh& mesh,
-  const std::vector<double>& places, const Execution& execution);
+  const std::vector<double>& places, const std::vector<double>& starts, const Execution& execution);
 }
 
 #endif

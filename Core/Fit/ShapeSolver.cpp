@@ -186,14 +186,24 @@ private:
       const FoldEnergy::Evaluation found = this->Energy.Evaluate(there);
       const bool isClear = std::equal(least.begin(), least.end(), found.Least.begin(),
         [](double before, double after) { return before <= 0.0 || after >= Clearance * before; });
-      if (isClear && this->SamplesAt(there) + this->Barrier * found.Energy <
-                       now + Sufficient * length * promised)
+      const double value = this->SamplesAt(there) + this->Barrier * found.Energy;
+      if (isClear && value < now + Sufficient * length * promised && this->StaysClear(there, least))
       {
         this->Net = there;
         return length;
       }
     }
     return 0.0;
+  }
+
+  // Whether cells that do not fold do not there either, also where only more points show it. These
+  // count from now on.
+  bool StaysClear(const ShapeNet& there, const std::vector<double>& least)
+  {
+    this->Energy.CountFinely(there);
+    const FoldEnergy::Evaluation found = this->Energy.Evaluate(there);
+    return std::equal(least.begin(), least.end(), found.Least.begin(),
+      [](double before, double after) { return before <= 0.0 || after > 0.0; });
   }
 
   TSpline& Spline;

@@ -47,6 +47,9 @@ public:
    */
   bool Find(const double point[3], double parameters[3]) const;
 
+  /// As Find, but goes from `parameters` first: where the point was on a geometry much like this.
+  bool FindFrom(const double point[3], double parameters[3]) const;
+
   /**
    * As Find, and where no cell maps there the parameters of the nearest point of the geometry, if
    * it is less than `reach` away: no other point is nearer by more than a thousandth. Pieces of

@@ -39,6 +39,13 @@ void ExpectRoundTrip(const TSpline& spline, std::mt19937& random, int points, do
     {
       ASSERT_NEAR(found[a], u[a], tolerance);
     }
+    // From anywhere else, too.
+    found = RandomPoint(spline, random);
+    ASSERT_TRUE(inverse.FindFrom(x.data(), found.data()));
+    for (int a = 0; a < 3; ++a)
+    {
+      ASSERT_NEAR(found[a], u[a], tolerance);
+    }
   }
 }
 

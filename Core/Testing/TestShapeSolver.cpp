@@ -124,6 +124,37 @@ TEST(FoldEnergy, HasItsGradient)
   EXPECT_NEAR(slope.cwiseProduct(way).sum(), difference, 1e-5 * std::abs(difference));
 }
 
+// Points that are added where cells nearly fold have their share of the mean: that of a shape that
+// is flattened evenly stays what it is.
+TEST(FoldEnergy, IsTheMeanOverCellsAlsoAtMorePoints)
+{
+  CubeInStar shape(2);
+  const TSpline& spline = shape.Spline;
+  ShapeNet cubes(spline.Size(), 3);
+  for (Index i = 0; i < spline.Size(); ++i)
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      const auto& k = spline.Functions[i][a];
+      const KnotLine& line = spline.KnotLines[a];
+      cubes(i, a) = (line[k[1]] + line[k[2]] + line[k[3]]) / 3.0;
+    }
+  }
+  FoldEnergy energy(shape.System->Mesh(), shape.System->Points(), cubes, shape.Run);
+  EXPECT_NEAR(energy.Evaluate(cubes).Energy, 5.0, 1e-9);
+  ShapeNet flat = cubes;
+  const double d = 0.01;
+  flat.col(2) *= d;
+  const double wanted = (2.0 + d * d) / std::pow(d, 2.0 / 3.0) + (1.0 + d * d) / d;
+  for (int round = 0; round < 2; ++round)
+  {
+    const FoldEnergy::Evaluation here = energy.Evaluate(flat);
+    EXPECT_NEAR(here.Energy, wanted, 1e-6 * wanted);
+    EXPECT_NEAR(*std::min_element(here.Least.begin(), here.Least.end()), d, 1e-9);
+    energy.CountFinely(flat);
+  }
+}
+
 // It is symmetric and positive, with folds too.
 TEST(FoldEnergy, HasAConvexCurvature)
 {
