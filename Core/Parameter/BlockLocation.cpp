@@ -3,6 +3,7 @@
 #include "BlockLocation.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <Eigen/QR>
 
 #include <algorithm>
@@ -20,8 +21,20 @@ using Box = Eigen::AlignedBox3d;
 
 constexpr int MostSteps = 40, MostHalvings = 12;
 constexpr double Exact = 1e-9;         // of a cell's diagonal: as good as inside
+constexpr double Arrived = 1e-13;      // of a cell, in parameters
+constexpr double Flat = 1e-20;         // a squared volume of the cell, of the box of its edges
 constexpr Index PerLeaf = 4;           // cells
 constexpr Index BetweenChecks = 50000; // points
+
+// A Newton step; of least length where the cell is flat.
+Vector3d Downhill(const Matrix3d& curve, const Vector3d& slope)
+{
+  Matrix3d inverse;
+  bool isRegular = false;
+  curve.computeInverseWithCheck(inverse, isRegular, Flat * curve.diagonal().prod());
+  return isRegular ? Vector3d(-inverse * slope)
+                   : Vector3d(-curve.completeOrthogonalDecomposition().solve(slope));
+}
 
 struct CellAddress
 {
@@ -85,16 +98,24 @@ Vector3d CellMap::Nearest(const Vector3d& p) const
   Vector3d rest = this->At(t) - p;
   for (int step = 0; step < MostSteps; ++step)
   {
-    Matrix3d jacobian = this->JacobianAt(t);
-    const Vector3d slope = jacobian.transpose() * rest;
+    const Matrix3d jacobian = this->JacobianAt(t);
+    Vector3d slope = jacobian.transpose() * rest;
+    Matrix3d curve = jacobian.transpose() * jacobian;
     for (int axis = 0; axis < 3; ++axis)
     {
       if ((t[axis] <= 0.0 && slope[axis] > 0.0) || (t[axis] >= 1.0 && slope[axis] < 0.0))
       {
-        jacobian.col(axis).setZero();
+        slope[axis] = 0.0;
+        curve.row(axis).setZero();
+        curve.col(axis).setZero();
+        curve(axis, axis) = 1.0;
       }
     }
-    const Vector3d way = -jacobian.colPivHouseholderQr().solve(rest);
+    const Vector3d way = Downhill(curve, slope);
+    if (way.lpNorm<Eigen::Infinity>() < Arrived)
+    {
+      break;
+    }
     double share = 1.0;
     Vector3d next, nextRest;
     for (int halving = 0; halving < MostHalvings; ++halving, share *= 0.5)
