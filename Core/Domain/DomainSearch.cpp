@@ -8,8 +8,8 @@
 #include "HandleLoop.h"
 #include "InnerCorners.h"
 #include "LayoutCheck.h"
-#include "LayoutStretch.h"
 #include "NormalAxes.h"
+#include "Parameter/CoarseHexahedra.h"
 #include "PolycubeFit.h"
 #include "RelaxedLayout.h"
 #include "SurfaceReduction.h"
@@ -27,20 +27,18 @@ using Eigen::Vector3d;
 
 constexpr int MostRefinement = 2;
 constexpr Index EnoughTriangles = 20000; // six charts need no more
-constexpr Index FewTriangles = 2000;     // enough to tell how much a surface is stretched
-constexpr double StretchCost = 0.4;      // in alignment, of e times the stretch, from StretchUnit
-constexpr double StretchUnit = 0.05;
-constexpr double LeastStretch = 0.1;  // that is worth a search for more cubes
-constexpr double LessStretch = 0.5;   // of one cube's that can be had of more
-constexpr double UnsoundCost = 0.05;  // in alignment, of cubes inverted between their corners
-constexpr double CoarseMargin = 0.03; // so much better must a coarse polycube be: no cubes for
-                                      // what is only rough
-constexpr Index MostForBends = 8;     // cubes
-constexpr Index LeastPerFace = 100;   // triangles of the surface
-constexpr int MostTries = 3;          // to lay out a coarse polycube
-constexpr int MostWorse = 4;          // polycubes in a row, each with more corners
-constexpr double SheetCost = 1.5;     // in alignment, of a sheet's stretch and
-constexpr double DistanceCost = 5.0;  // so many times its distance from the surface
+constexpr Index FewTriangles = 2000;     // enough to tell how good hexahedra become
+constexpr double GoodHexahedra = 0.86;   // of one cube: more are not looked for
+constexpr double WantingShare = 0.25;    // of what one cube's want to 1: more cubes' want as much
+constexpr double Margin = 0.03;          // in hexahedra, see MarginOf
+constexpr double AlignmentRate = 3.0;    // what a mean scaled Jacobian is worth in alignment
+constexpr double UnsoundCost = 0.05;     // in alignment, of cubes inverted between their corners
+constexpr Index MostForBends = 8;        // cubes
+constexpr Index LeastPerFace = 100;      // triangles of the surface
+constexpr int MostTries = 4;             // of coarse polycubes with more than one cube
+constexpr int MostWorse = 4;             // polycubes in a row, each with more corners
+constexpr double SheetCost = 1.5;        // in alignment, of a sheet's stretch and
+constexpr double DistanceCost = 5.0;     // so many times its distance from the surface
 
 bool IsSound(const SegmentDomain& domain)
 {
@@ -73,12 +71,10 @@ std::array<Matrix3d, 2> FramesOf(const SurfaceMesh& mesh)
 // Laid out on the surface, or corners from which it can be.
 struct DomainSearch::Candidate
 {
-  std::unique_ptr<SegmentDomain> Domain;
   Polycube Cubes;
   std::vector<Vector3d> Corners;
-  double Alignment, Stretch;
-  bool IsSound;
-  double Margin; // by which it must be better than others
+  double Quality; // of its hexahedra
+  std::unique_ptr<SegmentDomain> Domain;
   bool IsOfCharts;
 };
 
@@ -171,83 +167,62 @@ std::string DomainSearch::Handles() const
 }
 
 //------------------------------------------------------------------------------
-double DomainSearch::Value(double alignment, double stretch, Index corners) const
+double DomainSearch::Value(double quality, Index corners) const
 {
-  return alignment - StretchCost * std::log(1.0 + stretch / StretchUnit) -
-         this->Options.CornerCost * double(corners);
-}
-
-//------------------------------------------------------------------------------
-// One cube, with whatever corners, and chains, which are cut from one, are stretched as a cube must
-// be: what is left to choose among them is alignment.
-double DomainSearch::StretchOf(const Candidate& candidate) const
-{
-  const bool isCube = candidate.IsOfCharts || candidate.Cubes.Cubes.size() == 1;
-  return isCube ? std::min(candidate.Stretch, this->CubeStretch) : candidate.Stretch;
-}
-
-//------------------------------------------------------------------------------
-double DomainSearch::Value(const Candidate& candidate) const
-{
-  const double stretch = this->StretchOf(candidate);
-  return this->Value(candidate.Alignment, stretch, candidate.Cubes.NumberOfCorners) -
-         (candidate.IsSound ? 0.0 : UnsoundCost) - candidate.Margin;
+  return quality - this->Options.CornerCost * double(corners);
 }
 
 //------------------------------------------------------------------------------
 // The best candidate; null where there is none.
 DomainSearch::Candidate* DomainSearch::Leader()
 {
+  const auto valueOf = [this](const Candidate& c)
+  { return this->Value(c.Quality, c.Cubes.NumberOfCorners); };
   const auto best = std::max_element(this->Found.begin(), this->Found.end(),
-    [this](const Candidate& a, const Candidate& b) { return this->Value(a) < this->Value(b); });
+    [&](const Candidate& a, const Candidate& b) { return valueOf(a) < valueOf(b); });
   return best == this->Found.end() ? nullptr : &*best;
 }
 
 //------------------------------------------------------------------------------
-// Whether a domain with this many corners, and no less stretched, can be the best at all.
-bool DomainSearch::IsWorthwhile(Index corners, double stretch)
+// Whether a domain with this many corners can be the best, if its hexahedra are as good as can be
+// hoped for.
+bool DomainSearch::IsWorthwhile(Index corners)
 {
   const Candidate* best = this->Leader();
-  return !best || this->Value(1.0, stretch, corners) > this->Value(*best);
+  return !best || this->Value(1.0 - WantingShare * (1.0 - best->Quality), corners) >
+                    this->Value(best->Quality, best->Cubes.NumberOfCorners);
 }
 
 //------------------------------------------------------------------------------
-// Whether the best domain would be bettered by a coarse polycube with this many corners, aligned
-// like it and stretched half as much.
-bool DomainSearch::IsWorthLessStretch(Index corners)
+// By which hexahedra must be better than those of the others. Between cubes whose hexahedra are as
+// good but for that, alignment decides.
+double DomainSearch::MarginOf(const SegmentDomain& domain, bool isCoarse) const
 {
-  const Candidate* best = this->Leader();
-  return !best || this->Value(best->Alignment, LessStretch * this->StretchOf(*best), corners) -
-                      CoarseMargin >
-                    this->Value(*best);
-}
-
-//------------------------------------------------------------------------------
-// One of charts, that is laid out on the surface already.
-void DomainSearch::Offer(SegmentDomain domain, double stretch)
-{
-  RefuseInvalid(CheckLayout(domain.Layout, domain.Cubes));
-  Candidate candidate{ nullptr, domain.Cubes, {}, domain.Alignment, stretch, IsSound(domain), 0.0,
-    true };
-  candidate.Domain = std::make_unique<SegmentDomain>(std::move(domain));
-  this->Found.push_back(std::move(candidate));
-}
-
-//------------------------------------------------------------------------------
-// One that is laid out only if it is the best. Returns its stretch.
-double DomainSearch::OfferCorners(
-  const Polycube& cubes, const std::vector<Vector3d>& corners, double margin)
-{
-  const Execution run = this->Run.Part(0.7, 0.7);
-  const SegmentDomain small = DomainFromCorners(*this->Small, cubes, corners, run);
-  const double stretch = RelaxedStretch(small.Layout, cubes, run);
-  this->Found.push_back(
-    { nullptr, cubes, corners, small.Alignment, stretch, IsSound(small), margin, false });
-  if (cubes.Cubes.size() == 1)
+  if (domain.Cubes.Cubes.size() == 1 && !this->Found.empty() && this->Found.front().IsOfCharts)
   {
-    this->CubeStretch = std::min(this->CubeStretch, stretch);
+    return domain.Alignment > this->Found.front().Domain->Alignment ? -Margin : Margin;
   }
-  return stretch;
+  return isCoarse ? Margin : 0.0;
+}
+
+//------------------------------------------------------------------------------
+// One that is laid out only if it is the best. Returns whether it is so far.
+bool DomainSearch::OfferCorners(
+  const Polycube& cubes, const std::vector<Vector3d>& corners, bool isCoarse)
+{
+  double quality = 0.0; // the only one where there are handles
+  if (this->IsSphere)
+  {
+    const Execution run = this->Run.Part(0.7, 0.7);
+    const SegmentDomain small = DomainFromCorners(*this->Small, cubes, corners, run);
+    if (!IsSound(small))
+    {
+      return false;
+    }
+    quality = CoarseHexahedra(small, run) - this->MarginOf(small, isCoarse);
+  }
+  this->Found.push_back({ cubes, corners, quality, nullptr, false });
+  return this->Leader() == &this->Found.back();
 }
 
 //------------------------------------------------------------------------------
@@ -255,8 +230,14 @@ void DomainSearch::LayOut(Candidate& candidate) const
 {
   candidate.Domain = std::make_unique<SegmentDomain>(
     DomainFromCorners(this->Mesh, candidate.Cubes, candidate.Corners, this->Run.Part(0.8, 0.85)));
-  candidate.Alignment = candidate.Domain->Alignment;
-  candidate.IsSound = IsSound(*candidate.Domain);
+}
+
+//------------------------------------------------------------------------------
+// What decides between a cube and chains cut from it, whose hexahedra are the same.
+double DomainSearch::AlignmentValue(const SegmentDomain& domain) const
+{
+  return domain.Alignment - (IsSound(domain) ? 0.0 : UnsoundCost) -
+         AlignmentRate * this->Options.CornerCost * double(domain.Cubes.NumberOfCorners);
 }
 
 //------------------------------------------------------------------------------
@@ -267,27 +248,29 @@ void DomainSearch::TryCubeAndChains(int level)
   this->Charts = std::make_unique<ChartDomain>(
     this->Mesh, level, this->Options.Charts, this->Run.Part(0.1, 0.5));
   const ChartDomain& charts = *this->Charts;
-  SegmentDomain cube = charts.Cube();
-  const bool isCubeSound = IsSound(cube);
-  double stretch = 1.0; // of chains as well: they are cut from the cube
-  this->Try(
-    [&]()
-    {
-      const SegmentDomain small =
-        DomainFromCorners(*this->Small, cube.Cubes, CornersOf(cube), this->Run.Part(0.5, 0.5));
-      stretch = RelaxedStretch(small.Layout, small.Cubes, this->Run.Part(0.5, 0.5));
-    });
-  this->Offer(std::move(cube), stretch);
+  SegmentDomain best = charts.Cube();
+  RefuseInvalid(CheckLayout(best.Layout, best.Cubes));
+  const bool isCubeSound = IsSound(best);
+  const double quality = this->QualityOfCube(best);
   const auto isSoundInChain = [&](Index cubes)
   {
+    bool sound = false;
     const Index count = std::min(cubes, this->Options.MostCubes);
-    if (count < 2 || !this->IsWorthwhile(4 * (count + 1), stretch))
+    const double most = 1.0 - AlignmentRate * this->Options.CornerCost * double(4 * (count + 1));
+    if (count >= 2 && most > this->AlignmentValue(best))
     {
-      return false;
+      this->Try(
+        [&]()
+        {
+          SegmentDomain chain = charts.Chain(count, this->Run.Part(0.5, 0.55));
+          RefuseInvalid(CheckLayout(chain.Layout, chain.Cubes));
+          sound = IsSound(chain);
+          if (this->AlignmentValue(chain) > this->AlignmentValue(best))
+          {
+            best = std::move(chain);
+          }
+        });
     }
-    SegmentDomain chain = charts.Chain(count, this->Run.Part(0.5, 0.55));
-    const bool sound = IsSound(chain);
-    this->Offer(std::move(chain), stretch);
     return sound;
   };
   // As many cubes as it is long and, where it is bent, as few as are sound.
@@ -295,6 +278,29 @@ void DomainSearch::TryCubeAndChains(int level)
   for (Index cubes = 2; !isCubeSound && cubes <= MostForBends && !isSoundInChain(cubes); ++cubes)
   {
   }
+  this->Found.push_back(
+    { best.Cubes, {}, quality, std::make_unique<SegmentDomain>(std::move(best)), true });
+}
+
+//------------------------------------------------------------------------------
+// With geodesics between its corners on the surface of few triangles or, where that is the surface
+// or nearly so, as it is, whichever is better. 0 where it cannot be laid out, or corners are too
+// dear for more cubes.
+double DomainSearch::QualityOfCube(const SegmentDomain& cube)
+{
+  double quality = 0.0;
+  const Execution run = this->Run.Part(0.5, 0.5);
+  const auto judge = [&](const SegmentDomain& domain)
+  { quality = std::max(quality, CoarseHexahedra(domain, run)); };
+  if (this->Value(1.0, 12) > this->Value(0.0, 8))
+  {
+    this->Try([&]() { judge(DomainFromCorners(*this->Small, cube.Cubes, CornersOf(cube), run)); });
+    if (this->Mesh.NumberOfTriangles() <= 3 * FewTriangles)
+    {
+      this->Try([&]() { judge(cube); });
+    }
+  }
+  return quality;
 }
 
 //------------------------------------------------------------------------------
@@ -302,18 +308,19 @@ void DomainSearch::TryFlatPolycube()
 {
   const FlatPolycube flat =
     FindFlatPolycube(this->Mesh, this->Options.MostCubes, this->Run.Part(0.55, 0.6));
-  if (this->IsWorthwhile(flat.Cubes.NumberOfCorners, 0.0))
+  if (this->IsWorthwhile(flat.Cubes.NumberOfCorners))
   {
-    this->OfferCorners(flat.Cubes, flat.Corners, 0.0);
+    this->OfferCorners(flat.Cubes, flat.Corners, false);
   }
 }
 
 //------------------------------------------------------------------------------
-// A cube, and the one over which a sheet is stretched least, are laid out.
+// One cube, with the corners of a sheet, and the polycubes over which a sheet is stretched least,
+// until one is the best.
 void DomainSearch::TryCoarsePolycubes()
 {
   const Candidate* best = this->Leader();
-  if (best && this->StretchOf(*best) < LeastStretch)
+  if (best && best->Quality > GoodHexahedra)
   {
     return;
   }
@@ -324,18 +331,16 @@ void DomainSearch::TryCoarsePolycubes()
     fitted.begin(), fitted.end(), [](const Fitted& fit) { return fit.Cubes.Cubes.size() == 1; });
   if (more != fitted.begin())
   {
-    this->Try(
-      [&]() { this->OfferCorners(fitted.front().Cubes, fitted.front().Corners, CoarseMargin); });
+    this->Try([&]() { this->OfferCorners(fitted.front().Cubes, fitted.front().Corners, true); });
   }
-  // The others in turn, until one can be laid out and mapped.
-  double stretch = 1.0;
+  bool found = false;
   const auto end = more + std::min<std::ptrdiff_t>(MostTries, fitted.end() - more);
-  for (auto fit = more; fit != end && stretch == 1.0; ++fit)
+  for (auto fit = more; fit != end && !found; ++fit)
   {
     this->Run.Check(0.7 + 0.1 * double(fit - more) / MostTries);
-    if (this->IsWorthLessStretch(fit->Cubes.NumberOfCorners))
+    if (this->IsWorthwhile(fit->Cubes.NumberOfCorners))
     {
-      this->Try([&]() { stretch = this->OfferCorners(fit->Cubes, fit->Corners, CoarseMargin); });
+      this->Try([&]() { found = this->OfferCorners(fit->Cubes, fit->Corners, true); });
     }
   }
 }
@@ -355,14 +360,14 @@ std::vector<DomainSearch::Fitted> DomainSearch::FitCoarsePolycubes()
       const Index corners = coarse.Cubes.NumberOfCorners;
       const Index faces = static_cast<Index>(coarse.Cubes.Faces.size());
       if (worse == MostWorse || faces * LeastPerFace > this->Mesh.NumberOfTriangles() ||
-          !this->IsWorthLessStretch(corners))
+          !this->IsWorthwhile(corners))
       {
         break;
       }
       PolycubeFit fit = fitter.Fit(coarse.Cubes, coarse.Corners, this->Run.Part(0.7, 0.7));
       const double value =
         -SheetCost * (fit.Stretch / (1.0 + fit.Stretch) + DistanceCost * fit.Distance) -
-        this->Options.CornerCost * double(corners);
+        AlignmentRate * this->Options.CornerCost * double(corners);
       worse = value > best ? 0 : worse + 1;
       best = std::max(best, value);
       fitted.push_back({ coarse.Cubes, std::move(fit.Corners), value });

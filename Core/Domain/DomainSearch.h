@@ -35,16 +35,15 @@ private:
   void TryFlatPolycube();
   void TryCoarsePolycubes();
   std::vector<Fitted> FitCoarsePolycubes();
-  void Offer(SegmentDomain domain, double stretch);
-  double OfferCorners(
-    const Polycube& cubes, const std::vector<Eigen::Vector3d>& corners, double margin);
+  bool OfferCorners(
+    const Polycube& cubes, const std::vector<Eigen::Vector3d>& corners, bool isCoarse);
+  double MarginOf(const SegmentDomain& domain, bool isCoarse) const;
   void LayOut(Candidate& candidate) const;
-  double Value(double alignment, double stretch, Index corners) const;
-  double Value(const Candidate& candidate) const;
-  double StretchOf(const Candidate& candidate) const;
+  double Value(double quality, Index corners) const;
+  double AlignmentValue(const SegmentDomain& domain) const;
+  double QualityOfCube(const SegmentDomain& cube);
   Candidate* Leader();
-  bool IsWorthwhile(Index corners, double stretch);
-  bool IsWorthLessStretch(Index corners);
+  bool IsWorthwhile(Index corners);
   std::string Handles() const;
 
   const SurfaceMesh& Mesh;
@@ -54,7 +53,6 @@ private:
   std::unique_ptr<SurfaceMesh> Small; // of fewer triangles
   std::unique_ptr<ChartDomain> Charts;
   std::vector<Candidate> Found;
-  double CubeStretch = 1.0; // the least that was found with one cube
   std::string Reasons;
 };
 }

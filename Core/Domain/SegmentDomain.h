@@ -12,10 +12,10 @@ namespace trivariate
 struct DomainOptions
 {
   CubeChartOptions Charts;
-  /// How much one more corner must bring, in alignment (see SegmentDomain) less 0.4 ln(1 + 20 x)
-  /// for a stretch x (LayoutStretch.h). 0: as many cubes as are best; 1: one cube wherever one will
-  /// do.
-  double CornerCost = 0.0015;
+  /// How much one more corner must bring: in what CoarseHexahedra.h measures, and for chains thrice
+  /// as much in alignment (see SegmentDomain). 0: as many cubes as are best; 1: one cube wherever
+  /// one will do.
+  double CornerCost = 0.0005;
   /// Domains with more cubes are not looked at.
   Index MostCubes = 64;
   /// Whether borders go to where the map onto the cubes stretches the surface least
@@ -38,17 +38,18 @@ struct SegmentDomain
 };
 
 /**
- * The domain with the largest alignment, less 0.4 ln(1 + 20 x) for a stretch x, the cost of its
- * corners, and 0.05 where a cube, straight between its corners, is inverted. CheckLayout finds
- * nothing in it. Tried are one cube; chains of cubes cut from it where it is long, or so bent that
- * one is inverted; on a surface with flat parts (FlatPolycube.h) their polycube, the only one that
- * may have handles; and, where stretch is more than 0.1, polycubes that fill the solid about as
- * well as so few cubes can (CoarsePolycube.h). Those must be better by 0.03, lest what is only
- * rough gets cubes.
+ * The domain whose hexahedra become best (CoarseHexahedra.h), less the cost of its corners.
+ * CheckLayout finds nothing in it. Tried are one cube; chains of cubes cut from it where it is
+ * long, or so bent that it is inverted, which have its hexahedra and are chosen by alignment (less
+ * 0.05 where a cube, straight between its corners, is inverted); on a surface with flat parts
+ * (FlatPolycube.h) their polycube, the only one that may have handles; and, where these have
+ * hexahedra below 0.86, polycubes that fill the solid about as well as so few cubes can
+ * (CoarsePolycube.h). Those must be better by 0.03, lest what is only rough gets cubes; between
+ * cubes with hexahedra closer than that, alignment decides.
  *
- * Stretch is measured on a surface of few triangles; it is that of the cube for chains cut from it.
- * Only the best is laid out on the surface itself. A surface with too few triangles is cut finer.
- * Borders of the best one are relaxed if wanted (RelaxedLayout.h).
+ * Hexahedra are judged on a surface of few triangles. Only the best is laid out on the surface
+ * itself. A surface with too few triangles is cut finer. Borders of the best one are relaxed if
+ * wanted (RelaxedLayout.h).
  *
  * Throws std::invalid_argument for a surface of several pieces, std::runtime_error with the reasons
  * (and the place of a handle) where no domain can be laid out. O(n log n) beside one sparse

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CoarseHexahedra.h"
+
+#include "BlockCells.h"
+#include "BlockMeshing.h"
+#include "Domain/DomainLayers.h"
+#include "Domain/TriangleTree.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trivariate
+{
+namespace
+{
+using Eigen::Vector3d;
+
+constexpr double MostCells = 2000.0;
+constexpr int Halvings = 24;        // of the range in which the length of cells is sought
+constexpr double LayerDepth = 0.05; // in the third root of the volume
+constexpr double Freedom = 0.01;    // the same
+constexpr double Evenness = 0.35;
+constexpr int MostSmoothing = 15; // sweeps
+
+double VolumeInside(const SurfaceLayout& layout)
+{
+  double volume = 0.0;
+  for (const Triangle& t : layout.Triangles)
+  {
+    volume += layout.Points[t[0]].dot(layout.Points[t[1]].cross(layout.Points[t[2]])) / 6.0;
+  }
+  return volume;
+}
+
+// The least with which there are not too many cells, where there is one: blocks have two cells
+// along each edge at least.
+double CellLength(const BlockDomain& domain, BlockMeshOptions options, double size)
+{
+  double low = 1e-3 * size, high = size;
+  for (int i = 0; i < Halvings; ++i)
+  {
+    options.CellLength = std::sqrt(low * high);
+    (CountCells(SizesOf(domain, options)) > MostCells ? low : high) = options.CellLength;
+  }
+  return high;
+}
+
+// The faces of cells on the surface, each cut in two.
+std::vector<Triangle> OuterTriangles(const BlockDomain& domain, const BlockMesh& mesh)
+{
+  std::vector<Triangle> triangles;
+  for (const PatchFace& face : PatchFaces(domain, mesh))
+  {
+    for (int t = 0; t < face.Cells[1]; ++t)
+    {
+      for (int s = 0; s < face.Cells[0]; ++s)
+      {
+        const Index low = face.NodeAt(s, t), high = face.NodeAt(s + 1, t + 1);
+        triangles.push_back({ low, face.NodeAt(s + 1, t), high });
+        triangles.push_back({ low, high, face.NodeAt(s, t + 1) });
+      }
+    }
+  }
+  return triangles;
+}
+
+// Root of the mean square distance of the middles of triangles, by area, from other triangles.
+double DistanceFrom(const std::vector<Vector3d>& otherPoints, const std::vector<Triangle>& others,
+  const std::vector<Vector3d>& points, const std::vector<Triangle>& triangles)
+{
+  const TriangleTree tree(otherPoints, others);
+  double sum = 0.0, whole = 0.0;
+  for (const Triangle& t : triangles)
+  {
+    const Vector3d &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
+    const double area = (b - a).cross(c - a).norm();
+    const double distance = tree.Nearest((a + b + c) / 3.0).Distance;
+    sum += area * distance * distance;
+    whole += area;
+  }
+  return std::sqrt(sum / whole);
+}
+}
+
+//------------------------------------------------------------------------------
+double CoarseHexahedra(const SegmentDomain& domain, const Execution& execution)
+{
+  const double volume = VolumeInside(domain.Layout), size = std::cbrt(volume);
+  const BlockDomain blocks =
+    DomainOfSegment(LayeredBlocks(domain, LayerDepth * size, execution.Part(0.0, 0.1)), domain);
+  BlockMeshOptions options;
+  options.CellLength = CellLength(blocks, options, size);
+  options.LayerCells = options.CellLength;
+  options.Freedom = Freedom * size;
+  options.Repair.Evenness = Evenness;
+  options.Repair.MostRounds = 1;
+  options.Repair.MostSmoothing = MostSmoothing;
+  const BlockMesh mesh = MakeBlockMesh(blocks, options, execution.Part(0.1, 1.0));
+  const std::vector<Triangle> outer = OuterTriangles(blocks, mesh);
+  const std::vector<Vector3d>& points = domain.Layout.Points;
+  const std::vector<Triangle>& surface = domain.Layout.Triangles;
+  const double distance = std::max(DistanceFrom(mesh.Places, outer, points, surface),
+    DistanceFrom(points, surface, mesh.Places, outer));
+  return QualityOf(mesh, execution).MeanJacobian / (1.0 + distance * std::cbrt(MostCells) / size);
+}
+}
