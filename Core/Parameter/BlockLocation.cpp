@@ -233,6 +233,11 @@ BlockLocation CellTree::Nearest(const Vector3d& p, double farthest) const
   return best;
 }
 
+bool IsInside(const BlockLocation& location)
+{
+  return location.Block >= 0 && location.Distance == 0.0;
+}
+
 void CellTree::Search(Index number, const Vector3d& p, BlockLocation& best) const
 {
   const Node& node = this->Nodes[number];
@@ -240,27 +245,25 @@ void CellTree::Search(Index number, const Vector3d& p, BlockLocation& best) cons
   {
     for (Index cell = node.Begin; cell < node.End; ++cell)
     {
-      if (this->Boxes[cell].exteriorDistance(p) <= best.Distance)
+      if (!IsInside(best) && this->Boxes[cell].exteriorDistance(p) <= best.Distance)
       {
         this->Compare(cell, p, best);
       }
     }
     return;
   }
-  std::array<Index, 2> children{ number + 1, node.Right };
-  std::array<double, 2> distances;
+  const std::array<Index, 2> children{ number + 1, node.Right };
+  // Of two boxes around the point that with the nearer middle first.
+  std::array<std::array<double, 2>, 2> distances;
   for (int child = 0; child < 2; ++child)
   {
-    distances[child] = this->Nodes[children[child]].Around.exteriorDistance(p);
+    const Box& around = this->Nodes[children[child]].Around;
+    distances[child] = { around.exteriorDistance(p), (around.center() - p).squaredNorm() };
   }
-  if (distances[1] < distances[0])
+  const int first = distances[1] < distances[0];
+  for (const int child : { first, 1 - first })
   {
-    std::swap(children[0], children[1]);
-    std::swap(distances[0], distances[1]);
-  }
-  for (int child = 0; child < 2; ++child)
-  {
-    if (distances[child] <= best.Distance && (best.Block < 0 || best.Distance > 0.0))
+    if (distances[child][0] <= best.Distance && !IsInside(best))
     {
       this->Search(children[child], p, best);
     }
