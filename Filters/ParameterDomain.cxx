@@ -20,6 +20,8 @@ namespace
 // Voxels farther from the block mesh than so many of their sides have no parameter.
 constexpr double FarthestFromMesh = 1.5;
 
+constexpr std::uint8_t KnownInSegment = 2; // see VoxelParameter::Known
+
 constexpr double ThinPart = 0.05; // of the work on a segment: to look for thin parts
 
 BlockComplex ComplexOf(const DomainInput& input)
@@ -135,6 +137,26 @@ void LocateVoxels(const ImageSamples& samples, const GridSpace& space, Parameter
     }
   }
 }
+
+// The solved parameters of all segments on the voxels of the image.
+void CollectSolved(const ImageSamples& samples, ParameterDomain& domain)
+{
+  const Index nx = samples.Points(0), ny = samples.Points(1);
+  domain.FrameParameter.assign(3 * samples.Count(), 0.0);
+  domain.FrameMask.assign(samples.Count(), 0);
+  for (Index id = 0; id < samples.Count(); ++id)
+  {
+    const auto solved = domain.Solved.find(static_cast<int>(samples.Values[id]));
+    const Index at = solved == domain.Solved.end()
+                       ? -1
+                       : solved->second.At({ id % nx, id / nx % ny, id / (nx * ny) });
+    if (at >= 0 && solved->second.Known[at] == KnownInSegment)
+    {
+      std::copy_n(&solved->second.Values[3 * at], 3, &domain.FrameParameter[3 * id]);
+      domain.FrameMask[id] = 1;
+    }
+  }
+}
 }
 
 //------------------------------------------------------------------------------
@@ -142,9 +164,10 @@ ParameterDomain ParameterizeDomain(const ImageSamples& samples, vtkPolyData* pat
   vtkUnstructuredGrid* polycube, const ParameterSettings& settings, const Execution& execution)
 {
   const GridSpace space(samples.IndexToPhysical, samples.Extent);
-  ParameterDomain domain{ ReadDomain(patches, polycube), {}, {}, {}, {}, {}, {}, {}, {} };
+  ParameterDomain domain{ ReadDomain(patches, polycube), {}, {}, {}, {}, {}, {}, {}, {}, {}, {} };
   domain.Complex = ComplexOf(domain.Input);
   SolveSegments(samples, patches, space, settings.Options, domain, execution.Part(0.0, 0.3));
+  CollectSolved(samples, domain);
   BlockMeshOptions options;
   options.CellLength = settings.CellLength * std::cbrt(space.Spacing.prod());
   options.Freedom = FreedomOfNodes * space.Spacing.minCoeff();

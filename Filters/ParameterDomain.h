@@ -34,6 +34,10 @@ struct ParameterDomain
   std::vector<double> Parameter;
   std::vector<std::int32_t> Block;
   std::vector<std::uint8_t> Mask;
+
+  /// Likewise what was solved for, in coordinates of the lattice, and 1 where that is known.
+  std::vector<double> FrameParameter;
+  std::vector<std::uint8_t> FrameMask;
 };
 
 /**

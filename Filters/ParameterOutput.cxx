@@ -81,7 +81,7 @@ void AddFieldData(const ParameterDomain& domain, vtkFieldData* fields)
 {
   WriteQuality(domain.Report, fields);
   std::vector<int> segments, iterations;
-  std::vector<double> residuals, deviations, lengths;
+  std::vector<double> residuals, deviations, largest, lengths;
   for (const auto& [segment, solved] : domain.Solved)
   {
     segments.push_back(segment);
@@ -90,14 +90,17 @@ void AddFieldData(const ParameterDomain& domain, vtkFieldData* fields)
       const ParameterSolve& solve = solved.Solves[axis];
       iterations.push_back(solve.Iterations);
       residuals.push_back(solve.Residual);
-      deviations.push_back(solve.MeanDeviation / solved.Lengths[axis].back());
-      lengths.push_back(solved.Lengths[axis].back());
+      const double length = solved.Lengths[axis].back();
+      deviations.push_back(solve.MeanDeviation / length);
+      largest.push_back(solve.Deviation / length);
+      lengths.push_back(length);
     }
   }
   fields->AddArray(Copied<vtkIntArray>("ParameterSegment", 1, segments));
   fields->AddArray(Copied<vtkIntArray>("ParameterIterations", 3, iterations));
   fields->AddArray(Copied<vtkDoubleArray>("ParameterResidual", 3, residuals));
   fields->AddArray(Copied<vtkDoubleArray>("ParameterDeviation", 3, deviations));
+  fields->AddArray(Copied<vtkDoubleArray>("ParameterLargestDeviation", 3, largest));
   fields->AddArray(Copied<vtkDoubleArray>("ParameterLengths", 3, lengths));
 }
 
@@ -130,6 +133,10 @@ void WriteParameters(const ParameterDomain& domain, vtkImageData* image)
   image->GetPointData()->AddArray(Copied<vtkDoubleArray>("Parameter", 3, domain.Parameter));
   image->GetPointData()->AddArray(Copied<vtkUnsignedCharArray>("ParameterMask", 1, domain.Mask));
   image->GetPointData()->AddArray(Copied<vtkIntArray>("Block", 1, domain.Block));
+  image->GetPointData()->AddArray(
+    Copied<vtkDoubleArray>("FrameParameter", 3, domain.FrameParameter));
+  image->GetPointData()->AddArray(
+    Copied<vtkUnsignedCharArray>("FrameParameterMask", 1, domain.FrameMask));
   AddFieldData(domain, image->GetFieldData());
 }
 

@@ -4,19 +4,23 @@
  * @class   vtkVolumeParameterization
  * @brief   parameters u, v, w in segments, and hexahedral block meshes, over their domains
  *
- * Two steps. First, for every segment whose cubes lie in a lattice, u, v and w on its voxels: their
- * gradients are as close as possible to the directions of the frame field, and on every patch the
- * parameter along its axis is constant. Values on patches are found, not given, so the lengths of
- * the cubes come out. This is section 3 of "Feature-Aware Reconstruction of Volume Data via
- * Trivariate Splines" (2011): eq. (1) in the norm of eq. (8), patches held at sub-voxel samples of
- * the surface, conjugate gradients with multigrid.
+ * Two parameterizations. First, for every segment whose cubes lie in a lattice, u, v and w on its
+ * voxels: their gradients are as close as possible to the directions of the frame field, and on
+ * every patch the parameter along its axis is constant. Values on patches are found, not given, so
+ * the lengths of the cubes come out. This is section 3 of "Feature-Aware Reconstruction of Volume
+ * Data via Trivariate Splines" (2011): eq. (1) in the norm of eq. (8), patches held at sub-voxel
+ * samples of the surface, conjugate gradients with multigrid.
  *
- * Second, a block mesh: a structured grid of hexahedra in each block of the domain, whose faces on
- * patches lie on the surface, to half a voxel, and which share their nodes where blocks are glued.
- * Cells that are inverted are repaired by a foldover-free energy, nodes on the surface sliding on
- * it, also over the borders of patches but where the surface is sharp. The block mesh is the
- * inverse of a parameterization that is one-to-one, around singular edges too: the parameter of a
- * voxel is where it lies in the mesh.
+ * Where the lattice of cubes suits the segment they are the paper's; around the singular edges of
+ * layers, and in shells, no lattice can be followed without folds. So second, a block mesh: a
+ * structured grid of hexahedra in each block of the domain, whose faces on patches lie on the
+ * surface, to half a voxel, and which share their nodes where blocks are glued. Cells that are
+ * inverted are repaired by a foldover-free energy, nodes on the surface sliding on it, also over
+ * the borders of patches but where the surface is sharp. The block mesh is the inverse of a
+ * parameterization that is one-to-one, around singular edges too: there the parameter of a voxel is
+ * where it lies in the mesh. This one is what vtkTSplineFit takes. It depends on the patches, the
+ * polycube and CellLength alone: neither the frames nor Epsilon, Gradient, Rounds and Tolerance
+ * change it.
  *
  * Segments that share a surface share its nodes, and so its parameters.
  *
@@ -27,18 +31,21 @@
  *
  * @par Output
  * Port 0: the image with the point arrays
- * - Parameter (double x 3): (u, v, w) in the space in which every block is a unit cube, see Block;
- *   zero where there is none;
+ * - Parameter (double x 3): (u, v, w) in the block mesh, in the space in which every block is a
+ * unit cube, see Block; zero where there is none;
  * - ParameterMask (uint8): 1 in the segments of the domain; 0 elsewhere, and where the mesh is more
  *   than 1.5 voxels away;
- * - Block (int32): the group of cubes that shares one (u, v, w) grid, -1 where the mask is 0.
+ * - Block (int32): the group of cubes that shares one (u, v, w) grid, -1 where the mask is 0;
+ * - FrameParameter (double x 3): (u, v, w) solved for along the frames, in coordinates of the
+ *   lattice of cubes (DomainCoordinates), zero where there is none;
+ * - FrameParameterMask (uint8): 1 in the segments that were solved for, else 0.
  *
  * Field data: InvertedCells (vtkIdType x 2), of the block mesh as interpolated and in the end;
  * ScaledJacobian (double x 2), its least and mean; and for each segment that was solved for,
  * ParameterSegment, ParameterLengths (double x 3), of the domain along u, v, w,
  * ParameterIterations (int32 x 3), ParameterResidual (double x 3, relative) and ParameterDeviation
- * (double x 3): the root mean square of how far the parameter is from constant on patches, in parts
- * of the length.
+ * (double x 3) and ParameterLargestDeviation (double x 3): how far FrameParameter is from constant
+ * on patches, measured on the surface, in parts of the length: root mean square and the most.
  *
  * Port 1, polycube: with the point array DomainPosition (double x 3), where corners lie in a domain
  * with the solved lengths (zero where a segment has no lattice), and the cell arrays BlockLengths
@@ -50,7 +57,7 @@
  *
  * @par Cost
  * Solving: some 30 iterations for each parameter whatever the size; a segment that fills 256^3, 23
- * s for each on one core. Memory: 160 bytes a voxel of the box around the segment, and 80 a voxel
+ * s for each on one core. Memory: 160 bytes a voxel of the box around the segment, and 105 a voxel
  * of the image; with Epsilon below 1 another 220. Repair: see Core/Parameter/BlockRepair.h.
  * Threaded with vtkSMPTools; the result does not depend on the number of threads.
  *
@@ -98,9 +105,9 @@ public:
 
   ///@{
   /**
-   * The weight of deviations along the own direction of a parameter, against those across: epsilon
-   * of eq. (8). Less than 1 leaves lengths freer, and makes them less even. Valid range [0.001, 1].
-   * Default is 1.
+   * Of FrameParameter: the weight of deviations along the own direction of a parameter, against
+   * those across: epsilon of eq. (8). Less than 1 leaves lengths freer, and makes them less even.
+   * Valid range [0.001, 1]. Default is 1.
    */
   vtkSetClampMacro(Epsilon, double, 0.001, 1.0);
   vtkGetMacro(Epsilon, double);
@@ -108,8 +115,9 @@ public:
 
   ///@{
   /**
-   * How gradients are measured. TRILINEAR (0): in cells of eight voxels. POLYNOMIAL (1): of a cubic
-   * polynomial over the 5 x 5 x 5 voxels around, the paper's. Default is TRILINEAR.
+   * Of FrameParameter: how gradients are measured. TRILINEAR (0): in cells of eight voxels.
+   * POLYNOMIAL (1): of a cubic polynomial over the 5 x 5 x 5 voxels around, the paper's. Default is
+   * TRILINEAR.
    */
   vtkSetClampMacro(Gradient, int, TRILINEAR, POLYNOMIAL);
   vtkGetMacro(Gradient, int);
@@ -117,8 +125,8 @@ public:
 
   ///@{
   /**
-   * How often frames are replaced by the rotations closest to the gradients, and all is solved
-   * again. Valid range [0, 20]. Default is 0.
+   * Of FrameParameter: how often frames are replaced by the rotations closest to the gradients, and
+   * all is solved again. Valid range [0, 20]. Default is 0.
    */
   vtkSetClampMacro(Rounds, int, 0, 20);
   vtkGetMacro(Rounds, int);
@@ -126,8 +134,8 @@ public:
 
   ///@{
   /**
-   * When the linear systems count as solved: residual by right-hand side. Looser than 1e-6 folds
-   * cells. Valid range [1e-14, 1e-4]. Default is 1e-8.
+   * Of FrameParameter: when the linear systems count as solved: residual by right-hand side. Looser
+   * than 1e-6 folds FrameParameter. Valid range [1e-14, 1e-4]. Default is 1e-8.
    */
   vtkSetClampMacro(Tolerance, double, 1e-14, 1e-4);
   vtkGetMacro(Tolerance, double);

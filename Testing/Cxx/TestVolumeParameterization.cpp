@@ -7,6 +7,7 @@
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
+#include "vtkMatrix3x3.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkSMPTools.h"
 #include "vtkStructuredGrid.h"
@@ -187,6 +188,54 @@ void ExpectParameters(Chain& chain, double leastJacobian)
   EXPECT_LT(farthest, 1.2); // voxels along the surface, outside of the flat faces of cells
   EXPECT_NEAR(volume / voxels, 1.0, 0.03);
 }
+
+// The gradients of the solved parameters, times the lengths of the domain, are the frames.
+void ExpectFollowsFrames(Chain& chain)
+{
+  vtkImageData* image = chain.Parameters->GetOutput();
+  vtkDataArray* solved = image->GetPointData()->GetArray("FrameParameter");
+  vtkDataArray* mask = image->GetPointData()->GetArray("FrameParameterMask");
+  vtkDataArray* segment = image->GetPointData()->GetArray("Segment");
+  ASSERT_TRUE(solved && mask);
+  int n[3];
+  image->GetDimensions(n);
+  const vtkIdType step[3] = { 1, n[0], vtkIdType(n[0]) * n[1] };
+  double sum = 0.0, least = 1.0;
+  vtkIdType inner = 0;
+  for (vtkIdType id = 0; id < image->GetNumberOfPoints(); ++id)
+  {
+    ASSERT_EQ(mask->GetTuple1(id), segment->GetTuple1(id) != 0.0);
+    bool isInner = true;
+    for (const vtkIdType s : step)
+    {
+      isInner = isInner && id >= s && id + s < image->GetNumberOfPoints() &&
+                mask->GetTuple1(id - s) != 0.0 && mask->GetTuple1(id + s) != 0.0;
+    }
+    for (int axis = 0; axis < 3 && isInner; ++axis)
+    {
+      double slope[3], gradient[3];
+      for (int a = 0; a < 3; ++a)
+      {
+        slope[a] =
+          0.5 * chain.Known("ParameterLengths", axis) *
+          (solved->GetComponent(id + step[a], axis) - solved->GetComponent(id - step[a], axis));
+      }
+      image->GetDirectionMatrix()->MultiplyPoint(slope, gradient);
+      const double* frame = image->GetPointData()
+                              ->GetArray(axis == 0   ? "FrameU"
+                                         : axis == 1 ? "FrameV"
+                                                     : "FrameW")
+                              ->GetTuple3(id);
+      const double cosine = vtkMath::Dot(frame, gradient) / vtkMath::Norm(gradient);
+      sum += cosine;
+      least = std::min(least, cosine);
+      ++inner;
+    }
+  }
+  EXPECT_GT(inner, 5000);
+  EXPECT_GT(sum / static_cast<double>(inner), 0.99);
+  EXPECT_GT(least, 0.8);
+}
 }
 
 //------------------------------------------------------------------------------
@@ -197,12 +246,15 @@ TEST(VolumeParameterization, OneGridInABentBar)
     Chain chain(BarExtent, BentBar, false, turned);
     vtkImageData* image = chain.Update();
     ExpectParameters(chain, 0.1);
+    ExpectFollowsFrames(chain);
     EXPECT_EQ(image->GetPointData()->GetArray("Block")->GetRange()[1], 0.0);
     for (int axis = 0; axis < 3; ++axis)
     {
       EXPECT_LT(chain.Known("ParameterIterations", axis), 45.0);
       EXPECT_LT(chain.Known("ParameterResidual", axis), 1e-8);
       EXPECT_LT(chain.Known("ParameterDeviation", axis), 0.005);
+      EXPECT_GT(
+        chain.Known("ParameterLargestDeviation", axis), chain.Known("ParameterDeviation", axis));
     }
     // The sides of the bar, and an arc between the inner and the outer one.
     std::array<double, 3> lengths;
@@ -216,6 +268,34 @@ TEST(VolumeParameterization, OneGridInABentBar)
     EXPECT_GT(lengths[2], std::acos(0.0) * 13.0);
     EXPECT_LT(lengths[2], std::acos(0.0) * 24.0);
   }
+}
+
+//------------------------------------------------------------------------------
+// What is solved for along the frames changes with how; the place in the block mesh does not.
+TEST(VolumeParameterization, OptionsChangeWhatIsSolvedFor)
+{
+  Chain chain(BarExtent, BentBar, false);
+  const auto valuesOf = [&chain](const char* name)
+  {
+    vtkDataArray* array = chain.Update()->GetPointData()->GetArray(name);
+    std::vector<double> values;
+    for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+    {
+      values.insert(values.end(), array->GetTuple3(i), array->GetTuple3(i) + 3);
+    }
+    return values;
+  };
+  const std::vector<double> places = valuesOf("Parameter"), solved = valuesOf("FrameParameter");
+  chain.Parameters->SetEpsilon(0.05);
+  EXPECT_EQ(valuesOf("Parameter"), places);
+  const std::vector<double> freer = valuesOf("FrameParameter");
+  double most = 0.0;
+  for (std::size_t i = 0; i < solved.size(); ++i)
+  {
+    most = std::max(most, std::abs(freer[i] - solved[i]));
+  }
+  EXPECT_GT(most, 0.01);
+  EXPECT_LT(most, 0.5);
 }
 
 //------------------------------------------------------------------------------
