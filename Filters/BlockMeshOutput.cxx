@@ -138,6 +138,11 @@ void WriteHexahedra(const BlockMesh& mesh, const BlockLabels& labels, vtkPointDa
       });
   }
   cells.AddTo(output->GetCellData());
+  // VTK's Exodus writer looks for that name.
+  const auto elementBlocks = Named<vtkIntArray>("ElementBlockIds");
+  elementBlocks->DeepCopy(output->GetCellData()->GetArray("Segment"));
+  elementBlocks->SetName("ElementBlockIds");
+  output->GetCellData()->AddArray(elementBlocks);
 }
 
 //------------------------------------------------------------------------------

@@ -97,8 +97,8 @@ private:
   // The numbers that a patch, its corners and points have on another surface already.
   void TakeOver(Index surface, Index patch, Index other, Index otherPatch)
   {
-    const DomainSurface &to = this->Domains.Surfaces[surface],
-                        &from = this->Domains.Surfaces[other];
+    const LaidOutSurface &to = this->Domains.Surfaces[surface],
+                         &from = this->Domains.Surfaces[other];
     const SurfaceLayout &layout = to.Domain.Layout, &there = from.Domain.Layout;
     Numbers &own = this->Of[surface], &given = this->Of[other];
     own.Patches[patch] = given.Patches[otherPatch];
@@ -181,7 +181,7 @@ void Writer::Patches(vtkPolyData* output) const
   const auto labels = Named<vtkIntArray>("BoundaryLabels", 2);
   const auto append = [&](Index number, int segment, bool inner)
   {
-    const DomainSurface& surface = this->Domains.Surfaces[number];
+    const LaidOutSurface& surface = this->Domains.Surfaces[number];
     const SurfaceLayout& layout = surface.Domain.Layout;
     const Numbers& own = this->Of[number];
     for (std::size_t t = 0; t < layout.Triangles.size(); ++t)

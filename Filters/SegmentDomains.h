@@ -13,7 +13,7 @@
 namespace trivariate
 {
 /// A piece of surface with the polycube inside of it.
-struct DomainSurface
+struct LaidOutSurface
 {
   SegmentDomain Domain;
   std::vector<Index> Origins; ///< of each triangle of the piece: which one of the labelled surface
@@ -29,7 +29,7 @@ struct BlocksOfSegment
 
 struct DomainSet
 {
-  std::vector<DomainSurface> Surfaces;
+  std::vector<LaidOutSurface> Surfaces;
   std::vector<SharedPatch> Shared;       ///< between touching segments; of Surfaces
   std::vector<BlocksOfSegment> Segments; ///< in order of the labels
   std::vector<std::string> Failures;     ///< one sentence for each segment without a domain

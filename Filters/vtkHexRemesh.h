@@ -29,12 +29,16 @@
  * where a cell is inverted.
  *
  * Port 1: vtkUnstructuredGrid with the same hexahedra over common points, with Segment, Block,
- * ScaledJacobian and the arrays of the image, ready for a solver. Field data: InvertedCells
+ * ScaledJacobian and the arrays of the image, ready for a solver; ElementBlockIds (int32) is Segment
+ * again, by which VTK's Exodus writer makes an element block of each. Field data: InvertedCells
  * (vtkIdType x 2), as interpolated and in the end; ScaledJacobian (double x 2), its least and mean.
  *
  * @par Cost
  * 20 to 60 microseconds of processor time for a cell where the domain fits its segment; up to 2 ms
  * where cells stay inverted (Documentation/Results.md).
+ *
+ * @par Distributed data
+ * Process 0 makes all, from whole inputs; the others give nothing.
  *
  * @par Errors
  * No polycube, or one that the patches do not fit; more cells than MostCells. A warning says how

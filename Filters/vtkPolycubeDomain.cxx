@@ -294,8 +294,13 @@ void vtkPolycubeDomain::MakeDomains(
   }
   else if (chosen.size() != 1)
   {
-    throw std::invalid_argument("Corners are picked for one segment; of " +
-                                std::to_string(chosen.size()) + " choose one with Segments.");
+    std::string labels;
+    for (const int segment : chosen)
+    {
+      labels += (labels.empty() ? "" : ", ") + std::to_string(segment);
+    }
+    throw std::invalid_argument("Corners are picked for one segment; of " + labels +
+                                " enter one as Segments, apply the automatic mode, then pick.");
   }
   else
   {

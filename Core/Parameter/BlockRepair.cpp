@@ -383,10 +383,10 @@ void Repair(BlockMesh& mesh, SlidingNodes& sliding, BoundaryFit& fit,
   std::optional<Kept> kept;
   const int mostUntangling = options.MostRounds * SweepsOfRound;
   const double all = mostUntangling + options.MostSmoothing;
+  double done = 0.0, untangled = 0.0; // shares of the work
   double energy = std::numeric_limits<double>::infinity();
   for (int sweep = 0, untangling = 0, smoothing = 0;; ++sweep)
   {
-    const double done = (untangling + smoothing) / all;
     if (sweep % AssignEvery == 0)
     {
       fit.Assign(mesh.Places, execution);
@@ -414,7 +414,8 @@ void Repair(BlockMesh& mesh, SlidingNodes& sliding, BoundaryFit& fit,
       sweeper.Fitting = late ? LateFitting * options.Fitting : options.Fitting;
       sweeper.Activate(untangling < WholeSweeps || (!late && untangling % WholeEvery == 0));
       sweeper.Bluntest = BluntestAtFirst * std::pow(Sharpening, since);
-      ++untangling;
+      untangled = ++untangling / all;
+      done = std::max(done, untangled);
     }
     else
     {
@@ -428,6 +429,7 @@ void Repair(BlockMesh& mesh, SlidingNodes& sliding, BoundaryFit& fit,
       }
       energy = now;
       ++smoothing;
+      done = std::max(done, untangled + (1.0 - untangled) * smoothing / options.MostSmoothing);
     }
     const bool spreading = inverted > 0 && untangling > SweepsOfRound && since < Spreads;
     sweeper.Sweep(spreading, done, execution);

@@ -3,10 +3,12 @@
 #include "DomainChecks.h"
 #include "vtkHexRemesh.h"
 
+#include "vtkCallbackCommand.h"
 #include "vtkCellLocator.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkPartitionedDataSetCollection.h"
+#include "vtkSMPTools.h"
 #include "vtkStructuredGrid.h"
 
 namespace
@@ -201,6 +203,47 @@ TEST(HexRemesh, ResamplesGivenMeshes)
     }
     EXPECT_GE(near, 49);
   }
+}
+
+TEST(HexRemesh, IsTheSameOnOneThread)
+{
+  const vtkNew<vtkPolyData> surface = Ball();
+  Remeshed threaded(surface), alone(surface);
+  threaded.Filter->Update();
+  const vtkSMPTools::Config one{ 1, "STDThread", false };
+  vtkSMPTools::LocalScope(one, [&alone]() { alone.Filter->Update(); });
+  vtkUnstructuredGrid *a = threaded.Filter->GetHexahedra(), *b = alone.Filter->GetHexahedra();
+  ASSERT_EQ(a->GetNumberOfPoints(), b->GetNumberOfPoints());
+  for (vtkIdType p = 0; p < a->GetNumberOfPoints(); ++p)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      ASSERT_EQ(a->GetPoint(p)[c], b->GetPoint(p)[c]) << p;
+    }
+  }
+}
+
+TEST(HexRemesh, StopsWhenAbortedAndRunsAgain)
+{
+  const vtkNew<vtkPolyData> surface = Ball();
+  Remeshed mesh(surface);
+  vtkNew<vtkCallbackCommand> stop;
+  stop->SetCallback(
+    [](vtkObject* caller, unsigned long, void*, void*)
+    {
+      auto* filter = vtkAlgorithm::SafeDownCast(caller);
+      filter->SetAbortExecute(filter->GetProgress() > 0.1);
+    });
+  const unsigned long observer = mesh.Filter->AddObserver(vtkCommand::ProgressEvent, stop);
+  mesh.Filter->Update();
+  EXPECT_NE(mesh.Filter->GetAbortExecute(), 0);
+  EXPECT_EQ(mesh.Filter->GetHexahedra()->GetNumberOfCells(), 0);
+  mesh.Filter->RemoveObserver(observer);
+  mesh.Filter->SetAbortExecute(0);
+  mesh.Filter->Modified();
+  mesh.Filter->Update();
+  EXPECT_GT(mesh.Filter->GetHexahedra()->GetNumberOfCells(), 100);
+  EXPECT_EQ(mesh.Filter->GetInvertedCells(), 0);
 }
 
 TEST(HexRemesh, SaysWhatIsWrong)

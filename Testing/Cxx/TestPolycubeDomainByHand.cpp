@@ -221,5 +221,5 @@ TEST(PolycubeDomain, SaysWhatIsWrongWithCorners)
   const vtkNew<vtkPolyData> two =
     SurfaceOf(12, [](const double* p) { return BoxLabel(p, 10, 6, 6) ? (p[0] < 1.0 ? 2 : 5) : 0; });
   domain->SetInputData(two);
-  ExpectFault(domain, log, "for one segment; of 2 choose one");
+  ExpectFault(domain, log, "for one segment; of 2, 5 enter one as Segments");
 }

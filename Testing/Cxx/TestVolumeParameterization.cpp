@@ -4,6 +4,7 @@
 #include "vtkFrameField.h"
 #include "vtkVolumeParameterization.h"
 
+#include "vtkCallbackCommand.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
@@ -365,6 +366,36 @@ TEST(VolumeParameterization, IsTheSameOnOneThread)
       ASSERT_EQ(a->GetComponent(id, c), b->GetComponent(id, c)) << id;
     }
   }
+}
+
+//------------------------------------------------------------------------------
+// While it solves, and while it meshes.
+TEST(VolumeParameterization, StopsWhenAbortedAndRunsAgain)
+{
+  Chain chain(BarExtent, BentBar, false);
+  chain.Field->Update();
+  static double stopAt;
+  vtkNew<vtkCallbackCommand> stop;
+  stop->SetCallback(
+    [](vtkObject* caller, unsigned long, void*, void*)
+    {
+      auto* filter = vtkAlgorithm::SafeDownCast(caller);
+      filter->SetAbortExecute(filter->GetProgress() > stopAt);
+    });
+  for (const double share : { 0.1, 0.35 })
+  {
+    stopAt = share;
+    const unsigned long observer = chain.Parameters->AddObserver(vtkCommand::ProgressEvent, stop);
+    chain.Parameters->Modified();
+    chain.Parameters->Update();
+    EXPECT_NE(chain.Parameters->GetAbortExecute(), 0);
+    EXPECT_EQ(chain.Parameters->GetBlocks()->GetNumberOfPartitionedDataSets(), 0U);
+    chain.Parameters->RemoveObserver(observer);
+    chain.Parameters->SetAbortExecute(0);
+  }
+  chain.Parameters->Modified();
+  chain.Update();
+  ExpectParameters(chain, 0.1);
 }
 
 //------------------------------------------------------------------------------
