@@ -87,6 +87,28 @@ int BentBar(const double* p)
 }
 const int BarExtent[6] = { 0, 27, 0, 27, -9, 9 };
 
+// Its corners by hand: along the radius, the arc, the axis. Geodesics alone would cut off the outer
+// arc.
+void PickCornersOfBar(Chain& chain, bool mirrored)
+{
+  vtkNew<vtkPoints> points;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const double radius = corner & 1 ? 24.7 : 12.2;
+    const double angle = corner & 2 ? std::acos(0.0) - 0.03 : 0.03;
+    const double height = ((corner & 4) != 0) != mirrored ? 6.4 : -6.4;
+    const double index[3] = { radius * std::cos(angle), radius * std::sin(angle), height };
+    double place[3];
+    chain.Image->TransformContinuousIndexToPhysicalPoint(index, place);
+    points->InsertNextPoint(place);
+  }
+  vtkNew<vtkPolyData> corners;
+  corners->SetPoints(points);
+  chain.Domain->SetMode(vtkPolycubeDomain::MANUAL);
+  chain.Domain->SetInputData(1, corners);
+  chain.Domain->RelaxBordersOn();
+}
+
 int BallInBall(const double* p)
 {
   const double r = vtkMath::Norm(p);
@@ -245,6 +267,7 @@ TEST(VolumeParameterization, OneGridInABentBar)
   for (const bool turned : { false, true })
   {
     Chain chain(BarExtent, BentBar, false, turned);
+    PickCornersOfBar(chain, turned);
     vtkImageData* image = chain.Update();
     ExpectParameters(chain, 0.1);
     ExpectFollowsFrames(chain);
