@@ -8,8 +8,9 @@
     python3 Utilities/parameters.py FOLDER tooth=105+ ...
 
 Each row is a volume and its threshold, on the domain that domains.py saved in FOLDER: the iterations
-of u, v and w to a relative residual of 1e-8, and how far each is from constant on its patches, the
-root mean square in parts of its length. The block mesh is coarse; nothing is taken from it.
+of u, v and w to a relative residual of 1e-8, and how far each is from constant on its patches,
+measured on the surface, in parts of its length: the root mean square and the most. The block mesh is
+coarse; nothing is taken from it.
 """
 import pathlib
 import sys
@@ -38,12 +39,14 @@ def print_row(folder, run):
     solved.Update()
     fields = solved.GetOutput().GetFieldData()
     rows = zip(*(vtk_to_numpy(fields.GetArray(name)) for name in (
-        "ParameterSegment", "ParameterIterations", "ParameterDeviation")))
-    for segment, iterations, deviations in rows:
+        "ParameterSegment", "ParameterIterations", "ParameterDeviation",
+        "ParameterLargestDeviation")))
+    for segment, iterations, deviations, largest in rows:
         print(f"| {run.replace('=', ' > ')}, {segment} | {', '.join(map(str, iterations))} "
-              f"| {', '.join(f'{d:.4f}' for d in deviations)} |", flush=True)
+              f"| {', '.join(f'{d:.4f}' for d in deviations)} "
+              f"| {', '.join(f'{d:.3f}' for d in largest)} |", flush=True)
 
 
-print("| volume, segment | iterations | deviation |\n|---|---|---|")
+print("| volume, segment | iterations | deviation | at most |\n|---|---|---|---|")
 for argument in sys.argv[2:]:
     print_row(pathlib.Path(sys.argv[1]), argument)
