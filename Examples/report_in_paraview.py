@@ -14,7 +14,7 @@ SaveData("report.csv", proxy=report)
 
 table = report.GetClientSideObject().GetOutput()
 column = {table.GetColumnName(i): vtk_to_numpy(table.GetColumn(i))
-          for i in range(table.GetNumberOfColumns())}
+          for i in range(table.GetNumberOfColumns()) if table.GetColumn(i).IsNumeric()}
 for segment, voxels, rms in zip(column["Segment"], column["Voxels"], column["RoundTripRMSPercent"]):
     print("all" if segment == -1 else f"segment {segment}", voxels, f"voxels, RMS {rms:.3f} %")
 print(f"{column['ControlPoints'][-1]:.0f} control points, {column['SplineBytes'][-1]:.0f} bytes "

@@ -227,7 +227,10 @@ FittedPart FitOverDomain(const FilledDomains& domains, vtkImageData* image, cons
   fit->SetInputData(0, image);
   fit->SetInputData(1, cubes);
   fit->SetInputData(2, blocks);
-  return RunFit(fit, mask, segment, "FitOverCubes", options, chain, from, to);
+  FittedPart part = RunFit(fit, mask, segment, "FitOverCubes", options, chain, from, to);
+  const bool layered = cubes->GetCellData()->GetArray("Patch")->GetRange()[1] >= 0.0;
+  part.Domain = layered ? "LayeredCubes" : "Cubes";
+  return part;
 }
 
 //------------------------------------------------------------------------------

@@ -10,6 +10,7 @@
 
 #include "vtkSmartPointer.h"
 
+#include <string>
 #include <vector>
 
 class vtkPolyData;
@@ -39,6 +40,7 @@ struct FittedPart
   TSplineModel Model;
   vtkSmartPointer<vtkTable> Rounds;
   double Squares = 0.0; ///< sum of the squared errors of the round trip
+  std::string Domain;   ///< SegmentBox, Cubes or LayeredCubes
 };
 
 /// The error that a fit ended with, in percent of the range of what it fitted.

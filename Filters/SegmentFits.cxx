@@ -17,6 +17,7 @@
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkStringArray.h"
 #include "vtkTable.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
@@ -179,6 +180,7 @@ FittedPart FitOverBox(const Cut& cut, const Part& part, const SegmentFitOptions&
   const double range = part.High - part.Low;
   const double rms = range > 0.0 ? LastRms(fitted.Rounds) / 100.0 * range : 0.0;
   fitted.Squares = rms * rms * static_cast<double>(cut.Voxels.size());
+  fitted.Domain = "SegmentBox";
   return fitted;
 }
 
@@ -286,9 +288,9 @@ FittedPart FitPart(vtkImageData* image, const Part& part, std::int32_t number,
 }
 
 //------------------------------------------------------------------------------
-void AddRounds(vtkTable* rounds, std::int32_t segment, vtkTable* all)
+void AddRounds(const FittedPart& fitted, const Part& part, vtkTable* all)
 {
-  const char* names[] = { "Segment", "ControlPoints", "RMS", "MaximumError", "Seconds" };
+  const char* names[] = { "Segment", "ControlPoints", "RMS", "MaximumError", "Seconds", "Range" };
   if (all->GetNumberOfColumns() == 0)
   {
     for (const char* name : names)
@@ -305,15 +307,21 @@ void AddRounds(vtkTable* rounds, std::int32_t segment, vtkTable* all)
       column->SetName(name);
       all->AddColumn(column);
     }
+    vtkNew<vtkStringArray> domains;
+    domains->SetName("Domain");
+    all->AddColumn(domains);
   }
-  for (vtkIdType row = 0; row < rounds->GetNumberOfRows(); ++row)
+  for (vtkIdType row = 0; row < fitted.Rounds->GetNumberOfRows(); ++row)
   {
     for (const char* name : names)
     {
       vtkDataArray::SafeDownCast(all->GetColumnByName(name))
-        ->InsertNextTuple1(
-          name == names[0] ? segment : rounds->GetValueByName(row, name).ToDouble());
+        ->InsertNextTuple1(name == names[0] ? part.Label
+                           : name == names[5]
+                             ? part.High - part.Low
+                             : fitted.Rounds->GetValueByName(row, name).ToDouble());
     }
+    vtkStringArray::SafeDownCast(all->GetColumnByName("Domain"))->InsertNextValue(fitted.Domain);
   }
 }
 }
@@ -399,7 +407,7 @@ SegmentFits FitSegments(vtkImageData* image, const SegmentFitOptions& options, v
   {
     whole.Model = JoinParts(whole.Model, fitted[p].Model);
     squares += fitted[p].Squares;
-    AddRounds(fitted[p].Rounds, parts[p].Label, rounds);
+    AddRounds(fitted[p], parts[p], rounds);
   }
   vtkDataArray* labels = image->GetPointData()->GetArray("Segment");
   for (vtkIdType voxel = 0; voxel < image->GetNumberOfPoints(); ++voxel)

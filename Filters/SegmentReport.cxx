@@ -19,6 +19,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -205,32 +206,49 @@ Errors Compare(const ReportInput& input, const RoundTrip& trip, double range, bo
   return errors;
 }
 
+// Over what the spline of a segment was fitted, as the rounds tell, or else the spline.
+std::string DomainOf(const SplineFacts& facts, bool several, const LastRound& last)
+{
+  return std::isnan(facts.ControlPoints) ? "None"
+         : facts.Affine                  ? several ? "SegmentBox" : "ImageBox"
+         : last.Domain.empty()           ? "Cubes"
+                                         : last.Domain;
+}
+
+bool IsOverCubes(const std::string& domain)
+{
+  return domain == "Cubes" || domain == "LayeredCubes";
+}
+
+// `cubed`: those of the row's segments that were fitted over cubes.
 ReportRow MakeRow(const ReportInput& input, int segment, const Errors& errors,
-  const SplineFacts& facts, double raw, double deflated, double labelBytes)
+  const SplineFacts& facts, const std::set<int>& cubed, double raw, double deflated,
+  double labelBytes)
 {
   const double n = static_cast<double>(errors.Voxels);
   const double rms = std::sqrt(errors.Squares / n);
   ReportRow row;
-  row["Segment"] = segment;
-  row["Voxels"] = n;
-  row["RMSPercent"] =
+  std::map<std::string, double>& numbers = row.Numbers;
+  numbers["Segment"] = segment;
+  numbers["Voxels"] = n;
+  numbers["RMSPercent"] =
     errors.Known == errors.Voxels ? 100.0 * std::sqrt(errors.OwnSquares / n) : NaN;
-  row["Corners"] = CountCorners(input.Surfaces, segment);
-  row["ControlPoints"] = facts.ControlPoints;
-  row["RoundTripRMSPercent"] = 100.0 * rms;
-  row["FoundPercent"] = 100.0 * static_cast<double>(errors.Found) / n;
-  row["MaximumErrorPercent"] = 100.0 * errors.Largest;
-  row["PSNRDecibels"] = -20.0 * std::log10(rms);
-  row["HausdorffVoxels"] = facts.Hausdorff;
-  row["MinimumScaledJacobian"] = facts.MinimumScaledJacobian;
-  row["InvertedCells"] = facts.InvertedCells;
-  row["Blocks"] = facts.Blocks;
-  row["NumbersStored"] = facts.NumbersStored;
-  row["SplineBytes"] = facts.Bytes;
-  row["LabelBytes"] = labelBytes;
-  row["RawBytes"] = raw;
-  row["ZLibBytes"] = deflated;
-  row["Seconds"] = SecondsOf(input.Rounds, segment);
+  numbers["Corners"] = CountCorners(input.Surfaces, cubed);
+  numbers["ControlPoints"] = facts.ControlPoints;
+  numbers["RoundTripRMSPercent"] = 100.0 * rms;
+  numbers["FoundPercent"] = 100.0 * static_cast<double>(errors.Found) / n;
+  numbers["MaximumErrorPercent"] = 100.0 * errors.Largest;
+  numbers["PSNRDecibels"] = -20.0 * std::log10(rms);
+  numbers["HausdorffVoxels"] = facts.Hausdorff;
+  numbers["MinimumScaledJacobian"] = facts.MinimumScaledJacobian;
+  numbers["InvertedCells"] = facts.InvertedCells;
+  numbers["Blocks"] = facts.Blocks;
+  numbers["NumbersStored"] = facts.NumbersStored;
+  numbers["SplineBytes"] = facts.Bytes;
+  numbers["LabelBytes"] = labelBytes;
+  numbers["RawBytes"] = raw;
+  numbers["ZLibBytes"] = deflated;
+  numbers["Seconds"] = SecondsOf(input.Rounds, segment);
   return row;
 }
 }
@@ -241,7 +259,7 @@ const std::vector<std::string>& ReportColumns()
   static const std::vector<std::string> columns = { "Segment", "Voxels", "RMSPercent", "Corners",
     "ControlPoints", "RoundTripRMSPercent", "FoundPercent", "MaximumErrorPercent", "PSNRDecibels",
     "HausdorffVoxels", "MinimumScaledJacobian", "InvertedCells", "Blocks", "NumbersStored",
-    "SplineBytes", "LabelBytes", "RawBytes", "ZLibBytes", "Seconds" };
+    "SplineBytes", "LabelBytes", "RawBytes", "ZLibBytes", "Seconds", "Domain" };
   return columns;
 }
 
@@ -261,6 +279,8 @@ std::vector<ReportRow> MakeReport(const ReportInput& input, const Execution& exe
   std::vector<ReportRow> rows;
   Errors total;
   SplineFacts totalFacts;
+  std::string totalDomain;
+  std::set<int> allCubed;
   double totalRaw = 0.0, totalDeflated = 0.0;
   Index done = 0;
   for (const auto& [segment, own] : voxels)
@@ -276,6 +296,7 @@ std::vector<ReportRow> MakeReport(const ReportInput& input, const Execution& exe
     // One spline for all segments is told of once: with the first, and then not in its row.
     SplineFacts facts;
     Errors errors;
+    std::string domain = "None";
     if (exists)
     {
       const TSplineModel fitted = several ? SegmentPart(model, segment) : model;
@@ -287,11 +308,18 @@ std::vector<ReportRow> MakeReport(const ReportInput& input, const Execution& exe
           stored, mesh, several ? segment : segments.front(), input, part.Part(0.25, 0.8));
         totalFacts.Add(facts);
       }
-      const bool affine = several ? facts.Affine : totalFacts.Affine;
+      const SplineFacts& described = several ? facts : totalFacts;
+      const LastRound last = LastRoundOf(input.Rounds, segment);
+      domain = DomainOf(described, several, last);
       const std::vector<double> ownValues =
         input.Parameter < 0 ? std::vector<double>()
                             : EvaluateOwn(input, fitted, mesh, own, part.Part(0.8, 1.0));
-      errors = Compare(input, trip, range, affine, own, ownValues);
+      errors = Compare(input, trip, range, described.Affine, own, ownValues);
+      if (IsOverCubes(domain) && ownValues.empty() && !std::isnan(last.Rms))
+      {
+        errors.Known = errors.Voxels;
+        errors.OwnSquares = std::pow(last.Rms / range, 2) * static_cast<double>(errors.Voxels);
+      }
     }
     else
     {
@@ -301,8 +329,16 @@ std::vector<ReportRow> MakeReport(const ReportInput& input, const Execution& exe
     totalRaw += raw;
     totalDeflated += deflated;
     const bool isOwn = several || voxels.size() == 1;
+    std::set<int> cubed;
+    if (IsOverCubes(domain))
+    {
+      cubed.insert(segment);
+      allCubed.insert(segment);
+    }
+    totalDomain = totalDomain.empty() || totalDomain == domain ? domain : "Mixed";
     rows.push_back(
-      MakeRow(input, segment, errors, isOwn ? facts : SplineFacts(), raw, deflated, 0.0));
+      MakeRow(input, segment, errors, isOwn ? facts : SplineFacts(), cubed, raw, deflated, 0.0));
+    rows.back().Domain = domain;
   }
   double labelBytes = 0.0;
   if (several)
@@ -315,7 +351,8 @@ std::vector<ReportRow> MakeReport(const ReportInput& input, const Execution& exe
       input.Labels < 0 ? 0.0 : DeflatedBytes(labels, everywhere, VTK_INT, execution.Part(1.0, 1.0));
   }
   rows.push_back(
-    MakeRow(input, AllSegments, total, totalFacts, totalRaw, totalDeflated, labelBytes));
+    MakeRow(input, AllSegments, total, totalFacts, allCubed, totalRaw, totalDeflated, labelBytes));
+  rows.back().Domain = totalDomain;
   return rows;
 }
 }

@@ -11,6 +11,7 @@
 #include "TSpline/TSplineModel.h"
 
 #include <map>
+#include <string>
 #include <vector>
 
 class vtkImageData;
@@ -34,10 +35,13 @@ struct ReportInput
   vtkTable* Rounds = nullptr;      ///< of the fit, or null
 };
 
-/// Named numbers of one row; NaN where one is not known.
-using ReportRow = std::map<std::string, double>;
+struct ReportRow
+{
+  std::map<std::string, double> Numbers; ///< NaN where one is not known
+  std::string Domain;                    ///< over what was fitted
+};
 
-/// The columns of the table, in order.
+/// The columns of the table, in order: numbers, and last Domain.
 const std::vector<std::string>& ReportColumns();
 
 /// One row for each segment of the image, ascending, and one for all.

@@ -100,19 +100,19 @@ double StoredBytes(const TSplineModel& model, const Execution& execution)
 }
 
 //------------------------------------------------------------------------------
-double CountCorners(vtkPolyData* surface, int segment)
+double CountCorners(vtkPolyData* surface, const std::set<int>& segments)
 {
   vtkDataArray* corners = surface ? surface->GetPointData()->GetArray("CornerId") : nullptr;
-  if (!corners)
+  if (!corners || segments.empty())
   {
     return SplineFacts::NaN;
   }
-  vtkDataArray* segments = surface->GetCellData()->GetArray("Segment");
+  vtkDataArray* owners = surface->GetCellData()->GetArray("Segment");
   std::set<double> ids;
   vtkNew<vtkIdList> points;
   for (vtkIdType cell = 0; cell < surface->GetNumberOfCells(); ++cell)
   {
-    if (segment != AllSegments && segments && segments->GetTuple1(cell) != segment)
+    if (owners && segments.count(static_cast<int>(owners->GetTuple1(cell))) == 0)
     {
       continue;
     }
@@ -149,6 +149,24 @@ double SecondsOf(vtkTable* rounds, int segment)
     }
   }
   return known ? sum : SplineFacts::NaN;
+}
+
+//------------------------------------------------------------------------------
+LastRound LastRoundOf(vtkTable* rounds, int segment)
+{
+  LastRound last;
+  const bool isTold = rounds && rounds->GetColumnByName("Segment") &&
+                      rounds->GetColumnByName("Domain") && rounds->GetColumnByName("Range");
+  for (vtkIdType row = 0; isTold && row < rounds->GetNumberOfRows(); ++row)
+  {
+    if (rounds->GetValueByName(row, "Segment").ToInt() == segment)
+    {
+      last.Domain = rounds->GetValueByName(row, "Domain").ToString();
+      last.Rms = rounds->GetValueByName(row, "RMS").ToDouble() / 100.0 *
+                 rounds->GetValueByName(row, "Range").ToDouble();
+    }
+  }
+  return last;
 }
 
 //------------------------------------------------------------------------------

@@ -11,6 +11,8 @@
 #include "TSpline/TSplineModel.h"
 
 #include <limits>
+#include <set>
+#include <string>
 
 class vtkPolyData;
 class vtkTable;
@@ -44,11 +46,20 @@ struct SplineFacts
 SplineFacts DescribeSpline(const TSplineModel& part, const BezierMesh& mesh, int segment,
   const ReportInput& input, const Execution& execution);
 
-/// Distinct corners of the polycube on the surface of a segment, or on all (AllSegments).
-double CountCorners(vtkPolyData* surface, int segment);
+/// Distinct corners of the polycubes on the surfaces of some segments; NaN where there are none.
+double CountCorners(vtkPolyData* surface, const std::set<int>& segments);
 
 /// The last row of a segment in the table of rounds, or the sum over segments (AllSegments).
 double SecondsOf(vtkTable* rounds, int segment);
+
+/// What the rounds tell of the fit that a segment ended with.
+struct LastRound
+{
+  std::string Domain;            ///< over what it was fitted; empty: not known
+  double Rms = SplineFacts::NaN; ///< in units of the array
+};
+
+LastRound LastRoundOf(vtkTable* rounds, int segment);
 
 /// Of a .tspline file as vtkTSplineWriter writes it.
 double StoredBytes(const TSplineModel& model, const Execution& execution);

@@ -24,6 +24,7 @@
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStringArray.h"
 #include "vtkTable.h"
 
 #include <algorithm>
@@ -51,6 +52,17 @@ void ToTable(const std::vector<ReportRow>& rows, vtkTable* table)
 {
   for (const std::string& name : ReportColumns())
   {
+    if (name == "Domain")
+    {
+      vtkNew<vtkStringArray> domains;
+      domains->SetName(name.c_str());
+      for (const ReportRow& row : rows)
+      {
+        domains->InsertNextValue(row.Domain);
+      }
+      table->AddColumn(domains);
+      continue;
+    }
     vtkSmartPointer<vtkDataArray> column = vtkSmartPointer<vtkDoubleArray>::New();
     if (name == "Segment")
     {
@@ -63,7 +75,7 @@ void ToTable(const std::vector<ReportRow>& rows, vtkTable* table)
     column->SetName(name.c_str());
     for (const ReportRow& row : rows)
     {
-      column->InsertNextTuple1(row.at(name));
+      column->InsertNextTuple1(row.Numbers.at(name));
     }
     table->AddColumn(column);
   }

@@ -20,17 +20,19 @@
  * spline of one segment stands for all voxels.
  * Port 2 (optional): vtkPolyData, the surfaces of the segments, by vtkSegmentBoundary or (patches)
  * vtkPolycubeDomain.
- * Port 3 (optional): vtkTable, the rounds of the fit; of its column Seconds the last row of each
- * segment (column Segment, if there is one) counts.
+ * Port 3 (optional): vtkTable, the rounds of the fit; of its columns Seconds, RMS, Range and Domain
+ * the last row of each segment (column Segment, if there is one) counts.
  *
  * @par Output
  * Port 0: vtkTable with one row a segment, ascending, and one with Segment -1 for all. Columns are
- * double but for the first two; NaN where a number is not known.
+ * double but for the first two and the last; NaN where a number is not known.
  * - Segment (int), Voxels (vtkIdType);
  * - RMSPercent: 100 x root mean square error / range of the image's array at the voxels' own
  *   parameters: those of Parameter, or where the geometry of the spline is affine, as under a fit
- *   without domain, those of the round trip; NaN when a voxel has none;
- * - Corners: of the polycube on the surfaces (port 2 with the point array CornerId);
+ *   without domain, those of the round trip; of a segment over cubes without an array Parameter
+ * what vtkTSplineReconstruction's rounds (port 3) end with. NaN when a voxel has none;
+ * - Corners: of the polycubes on the surfaces (port 2 with the point array CornerId) of segments
+ * that were fitted over cubes; NaN where none was;
  * - ControlPoints: blending functions;
  * - RoundTripRMSPercent, MaximumErrorPercent: of the round trip, in percent of the same range;
  *   FoundPercent: share of the voxels found by the inverse map, in a spline of several segments
@@ -49,8 +51,13 @@
  *   (total only): of the labels deflated, which the image is written back with where a spline has
  *   several segments; RawBytes, ZLibBytes: of the voxels, as they are and deflated by
  *   vtkZLibDataCompressor;
- * - Seconds: of port 3.
- * Where one spline stands for several segments, what concerns the spline is in the last row only.
+ * - Seconds: of port 3;
+ * - Domain (string), over what the segment was fitted: ImageBox (one spline for all), SegmentBox,
+ *   Cubes, LayeredCubes (cubes with blocks along the surface; only the rounds of
+ *   vtkTSplineReconstruction tell, without them they are Cubes), None (the spline has no such
+ *   segment); Mixed in the last row where segments differ.
+ * Where one spline stands for several segments, what else concerns the spline is in the last row
+ * only.
  *
  * @par Cost
  * Time: twice that of vtkTSplineSource for the image, ten microseconds a Bezier cell, and deflating

@@ -36,8 +36,9 @@
  *
  * @par Output
  * Port 0: the T-spline grid; the control points' arrays Segment and Block tell whose they are.
- * Port 1: vtkTable, the rounds of all fits, with the columns of vtkTSplineFit and Segment (but not
- * of one spline over the whole image). Field
+ * Port 1: vtkTable, the rounds of all fits, with the columns of vtkTSplineFit; and, but not of
+ * one spline over the whole image, Segment, Range (double, of the array in the segment, of which
+ * RMS and MaximumError are parts) and Domain (string: SegmentBox, Cubes or LayeredCubes). Field
  * data: Step (string) and StepSeconds (double), where the time went: the names of the filters
  * without "vtk", FitOverBox and FitOverCubes.
  * Unless Domain is BOX also:

@@ -62,13 +62,15 @@ def reconstruct(source, name, count, domain):
     report.SetInputConnection(0, labelled.GetOutputPort(0 if domain == "box" else 2))
     report.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS, name)
     report.SetTSplineConnection(reconstruction.GetOutputPort())
+    report.SetRoundsConnection(reconstruction.GetOutputPort(1))
     if reconstruction.GetOutputDataObject(4).GetNumberOfPoints() > 0:
         report.SetSurfacesConnection(reconstruction.GetOutputPort(4))
     report.Update()
     table = report.GetOutput()
     last = table.GetNumberOfRows() - 1
-    return reconstruction, seconds, {table.GetColumnName(i): table.GetValue(last, i).ToDouble()
-                                     for i in range(table.GetNumberOfColumns())}
+    columns = [table.GetColumn(i) for i in range(table.GetNumberOfColumns())]
+    return reconstruction, seconds, {column.GetName(): column.GetTuple1(last)
+                                     for column in columns if column.IsNumeric()}
 
 
 def shares_of_steps(reconstruction):
@@ -104,9 +106,8 @@ def print_row(model, count, domain, folder):
     name = source.GetOutput().GetPointData().GetArrayName(0)
     reconstruction, seconds, row = reconstruct(source, name, count, domain)
     own = row["RMSPercent"]
-    corners = row["Corners"] if row["Blocks"] > 1.0 else float("nan")  # one spline over the box
     print(f"| {model} | {domain} | {int(row['Voxels']):,} | {'-' if own != own else f'{own:.3f}'} "
-          f"| {count_or_dash(corners)} | {int(row['ControlPoints']):,} "
+          f"| {count_or_dash(row['Corners'])} | {int(row['ControlPoints']):,} "
           f"| {int(row['NumbersStored']):,} | {row['RoundTripRMSPercent']:.3f} "
           f"| {row['FoundPercent']:.2f} | {row['MaximumErrorPercent']:.1f} "
           f"| {row['PSNRDecibels']:.1f} | {(row['SplineBytes'] + row['LabelBytes']) / 1e3:.0f} "

@@ -52,6 +52,21 @@ std::map<std::array<double, 3>, std::array<double, 3>> CornersOf(vtkUnstructured
   return corners;
 }
 
+// The report on a reconstruction, with all that it tells.
+vtkNew<vtkTable> ReportOn(vtkTSplineReconstruction* reconstruction)
+{
+  vtkNew<vtkReconstructionReport> report;
+  report->SetInputConnection(0, reconstruction->GetOutputPort(2));
+  report->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
+  report->SetTSplineConnection(reconstruction->GetOutputPort());
+  report->SetSurfacesConnection(reconstruction->GetOutputPort(4));
+  report->SetRoundsConnection(reconstruction->GetOutputPort(1));
+  report->Update();
+  vtkNew<vtkTable> table;
+  table->DeepCopy(report->GetOutput());
+  return table;
+}
+
 // Distinct ones: those of the last round of each segment. Over cubes some points of the grid stand
 // for the same one, seen from blocks that share a face.
 double ControlPointsOf(vtkTable* rounds)
@@ -130,14 +145,7 @@ TEST(TSplineReconstruction, TakesTheBetterOfCubesAndBox)
     auto reconstruction = Reconstruct(Phantom());
     reconstruction->SetDomain(domain);
     reconstruction->SetRMSTolerance(0.0);
-    vtkNew<vtkReconstructionReport> report;
-    report->SetInputConnection(0, reconstruction->GetOutputPort(2));
-    report->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
-    report->SetTSplineConnection(reconstruction->GetOutputPort());
-    report->Update();
-    vtkNew<vtkTable> table;
-    table->DeepCopy(report->GetOutput());
-    return table;
+    return ReportOn(reconstruction);
   };
   const vtkNew<vtkTable> boxes = run(vtkTSplineReconstruction::SEGMENTS);
   const vtkNew<vtkTable> best = run(vtkTSplineReconstruction::AUTOMATIC);
@@ -145,7 +153,10 @@ TEST(TSplineReconstruction, TakesTheBetterOfCubesAndBox)
   for (vtkIdType row = 0; row < 3; ++row)
   {
     EXPECT_EQ(best->GetValueByName(row, "FoundPercent").ToDouble(), 100.0);
+    EXPECT_EQ(boxes->GetValueByName(row, "Domain").ToString(), "SegmentBox");
+    EXPECT_TRUE(std::isnan(boxes->GetValueByName(row, "Corners").ToDouble()));
   }
+  EXPECT_EQ(best->GetValueByName(0, "Domain").ToString(), "SegmentBox");
   EXPECT_LE(best->GetValueByName(1, "RoundTripRMSPercent").ToDouble(),
     1.0001 * boxes->GetValueByName(1, "RoundTripRMSPercent").ToDouble());
 }
@@ -174,6 +185,13 @@ TEST(TSplineReconstruction, TakesOneSplineForAllWhereThatIsBetter)
   box->Update();
   ExpectSame(reconstruction->GetOutput(), box->GetOutput());
   EXPECT_GT(Output<vtkUnstructuredGrid>(reconstruction, 7)->GetNumberOfCells(), 0);
+  // There are patches with corners, but no spline over them.
+  const auto report = ReportOn(reconstruction);
+  for (vtkIdType row = 0; row < 3; ++row)
+  {
+    EXPECT_EQ(report->GetValueByName(row, "Domain").ToString(), "ImageBox");
+    EXPECT_TRUE(std::isnan(report->GetValueByName(row, "Corners").ToDouble()));
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -215,15 +233,22 @@ TEST(TSplineReconstruction, TakesCubesAndCornersThatAreGiven)
   }
   EXPECT_EQ(blocks[0].size(), 1u);
   EXPECT_GE(blocks[3].size(), 7u);
-  vtkNew<vtkReconstructionReport> report;
-  report->SetInputConnection(0, reconstruction->GetOutputPort(2));
-  report->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
-  report->SetTSplineConnection(reconstruction->GetOutputPort());
-  report->Update();
-  const auto cell = [&report](const char* name)
-  { return report->GetOutput()->GetValueByName(2, name).ToDouble(); };
-  EXPECT_EQ(cell("FoundPercent"), 100.0);
-  EXPECT_LT(cell("RoundTripRMSPercent"), 2.0);
+  const auto report = ReportOn(reconstruction);
+  const auto cell = [&report](vtkIdType row, const char* name)
+  { return report->GetValueByName(row, name).ToDouble(); };
+  EXPECT_EQ(cell(2, "FoundPercent"), 100.0);
+  EXPECT_LT(cell(2, "RoundTripRMSPercent"), 2.0);
+  const char* domains[] = { "SegmentBox", "LayeredCubes", "Mixed" };
+  for (vtkIdType row = 0; row < 3; ++row)
+  {
+    EXPECT_EQ(report->GetValueByName(row, "Domain").ToString(), domains[row]);
+    // The error at the voxels' own parameters is told, and the round trip keeps it.
+    EXPECT_LE(cell(row, "RoundTripRMSPercent"), 1.05 * cell(row, "RMSPercent")) << row;
+    EXPECT_GE(cell(row, "RoundTripRMSPercent"), 0.95 * cell(row, "RMSPercent")) << row;
+  }
+  EXPECT_TRUE(std::isnan(cell(0, "Corners")));
+  EXPECT_EQ(cell(1, "Corners"), double(wanted.size()));
+  EXPECT_EQ(cell(2, "Corners"), double(wanted.size()));
 }
 
 //------------------------------------------------------------------------------

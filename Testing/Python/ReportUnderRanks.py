@@ -19,7 +19,7 @@ report.UpdatePipeline()
 table = servermanager.Fetch(report)
 grid = servermanager.Fetch(fit)
 saved = {table.GetColumnName(i): vtk_to_numpy(table.GetColumn(i))
-         for i in range(table.GetNumberOfColumns())}
+         for i in range(table.GetNumberOfColumns()) if table.GetColumn(i).IsNumeric()}
 numpy.savez(sys.argv[1], Points=vtk_to_numpy(grid.GetPoints().GetData()),
             Density=vtk_to_numpy(grid.GetPointData().GetArray("Density")), **saved)
 
