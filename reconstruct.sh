@@ -3,8 +3,8 @@
 #                  [--segments K] [--domain box|segments|auto|FILE]
 #
 # Turns a volume image into a T-spline and writes to DIR what came out of it: model.tspline,
-# resampled.vti, hexes.vtu, bezier.vtu, picture.png and report.json. The first call on Debian 12
-# also installs what is missing and builds.
+# resampled.vti, hexes.vtu, bezier.vtu, picture.png, report.json and (segment by segment)
+# report.csv. The first call on Debian 12 also installs what is missing and builds.
 #
 #   VOLUME              any image that ParaView reads (.vti .nrrd .nhdr .mhd .nii .vtk ...);
 #                       without one a built-in hydrogen orbital is taken

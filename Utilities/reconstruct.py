@@ -9,6 +9,7 @@ import resource
 import sys
 import time
 
+import numpy
 from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.util.vtkConstants import VTK_STRING
@@ -223,15 +224,26 @@ class Segments:
             self.fields = fields
         self.hexahedra = not_empty(reconstruction, 7)
 
+    def cubes_among(self, segments):
+        """How many cubes the domains of some segments have, those of layers not counted; or None."""
+        if not segments:
+            return None
+        cells = output_of(self.polycubes).GetCellData()
+        owners, patches = (vtk_to_numpy(cells.GetArray(name)) for name in ("Segment", "Patch"))
+        return int((numpy.isin(owners, segments) & (patches == -1)).sum())
+
     def quality(self):
         """Of the hexahedra: how many were inverted, how many are, least and mean Jacobian."""
         if self.hexahedra is None:
-            return {"hexahedra": None}
+            return {"mean_scaled_jacobian": None, "inverted_cells_before": None,
+                    "inverted_cells_after": None, "hexahedra": None}
         mesh = output_of(self.hexahedra)
         field = mesh.GetFieldData()
         before, after = field.GetArray("InvertedCells").GetTuple(0)
         least, mean = field.GetArray("ScaledJacobian").GetTuple(0)
-        return {"hexahedra": {"cells": mesh.GetNumberOfCells(),
+        return {"mean_scaled_jacobian": mean, "inverted_cells_before": int(before),
+                "inverted_cells_after": int(after),
+                "hexahedra": {"cells": mesh.GetNumberOfCells(),
                               "inverted_cells": {"before": int(before), "after": int(after)},
                               "min_scaled_jacobian": least, "mean_scaled_jacobian": mean}}
 
@@ -250,7 +262,8 @@ def count_cells(model):
 
 
 def measure(path, source, name, model, rounds, segments):
-    """Compares volume and spline, saves the table, and returns its row of all segments."""
+    """Compares volume and spline, saves the table, and returns its row of all segments and over
+    what each segment was fitted."""
     extra = {}
     if segments.patches or segments.surfaces:
         extra["Surfaces"] = segments.patches or segments.surfaces
@@ -262,8 +275,12 @@ def measure(path, source, name, model, rounds, segments):
         fail("the report failed, as told above")
     save(path, report)
     last = table.GetNumberOfRows() - 1
-    return {table.GetColumnName(i): table.GetValue(last, i).ToDouble()
-            for i in range(table.GetNumberOfColumns())}
+    columns = [table.GetColumn(i) for i in range(table.GetNumberOfColumns())]
+    numbers = {column.GetName(): column.GetTuple1(last)
+               for column in columns if column.IsNumeric()}
+    domains = {table.GetValueByName(row, "Segment").ToInt():
+               table.GetValueByName(row, "Domain").ToString() for row in range(last)}
+    return numbers, domains
 
 
 def whole_or_none(number):
@@ -349,15 +366,15 @@ def main():
                                                   Points=segments.labelled or source))
     hexes = step("hexahedra", lambda: evaluate(path("hexes.vtu"), model, "Linear Hexahedra"))
     bezier = step("bezier", lambda: evaluate(path("bezier.vtu"), model, "Bezier Hexahedra"))
-    measured = step("report", measure, path("report.csv"), source, name, model,
-                    simple.OutputPort(fit, 1), segments)
+    measured, fitted_over = step("report", measure, path("report.csv"), source, name, model,
+                                 simple.OutputPort(fit, 1), segments)
     if segments.surfaces:
         step("save_segments", segments.save, path)
         step("segments_picture", picture.save_segments, path("segments.png"), segments.labelled,
              segments.surfaces, name)
     step("picture", picture.save, path("picture.png"), source, resampled, model, name)
 
-    cubes = segments.polycubes and output_of(segments.polycubes).GetCellData()
+    polycubes = segments.polycubes and output_of(segments.polycubes).GetCellData()
     report = {
         "voxels": int(measured["Voxels"]),
         "control_points": int(measured["ControlPoints"]),
@@ -365,14 +382,18 @@ def main():
         "tmesh_cells": count_cells(model),
         "bezier_cells": output_of(bezier).GetNumberOfCells(),
         "rms_density_percent": number_or_none(measured["RMSPercent"]),
+        "psnr_decibels": measured["PSNRDecibels"],
         "max_error": measured["MaximumErrorPercent"] / 100.0,
         "round_trip_rms_density_percent": measured["RoundTripRMSPercent"],
         "found_percent": measured["FoundPercent"],
         "segments": segments.labelled and 1 + int(
             output_of(segments.labelled).GetPointData().GetArray("Segment").GetRange()[1]),
-        "domains": cubes and len(set(vtk_to_numpy(cubes.GetArray("Segment")))),
+        "domains": polycubes and len(set(vtk_to_numpy(polycubes.GetArray("Segment")))),
+        "fitted_over": fitted_over,
+        "blocks": int(measured["Blocks"]),
         "corners": whole_or_none(measured["Corners"]),
-        "cubes": cubes and int((vtk_to_numpy(cubes.GetArray("Patch")) == -1).sum()),
+        "cubes": segments.cubes_among([segment for segment, domain in fitted_over.items()
+                                       if domain in ("Cubes", "LayeredCubes")]),
         "boundary_hausdorff_voxels": number_or_none(measured["HausdorffVoxels"]),
         "min_scaled_jacobian": number_or_none(measured["MinimumScaledJacobian"]),
         "inverted_cells": whole_or_none(measured["InvertedCells"]),
