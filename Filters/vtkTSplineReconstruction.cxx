@@ -53,6 +53,7 @@ enum Outputs
   POLYCUBES,
   FIELDS,
   HEXAHEDRA,
+  BLOCKS,
   NUMBER_OF_OUTPUTS
 };
 
@@ -126,7 +127,8 @@ int vtkTSplineReconstruction::FillInputPortInformation(int port, vtkInformation*
 int vtkTSplineReconstruction::FillOutputPortInformation(int port, vtkInformation* info)
 {
   const char* types[] = { "vtkUnstructuredGrid", "vtkTable", "vtkImageData", "vtkPolyData",
-    "vtkPolyData", "vtkUnstructuredGrid", "vtkImageData", "vtkUnstructuredGrid" };
+    "vtkPolyData", "vtkUnstructuredGrid", "vtkImageData", "vtkUnstructuredGrid",
+    "vtkPartitionedDataSetCollection" };
   info->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
   return 1;
 }
@@ -285,6 +287,7 @@ std::vector<FilledDomains> vtkTSplineReconstruction::Fill(vtkImageData* segments
       polycubes->ShallowCopy(filled.Polycubes);
       vtkImageData::GetData(outputVector, FIELDS)->ShallowCopy(filled.Fields);
       vtkUnstructuredGrid::GetData(outputVector, HEXAHEDRA)->ShallowCopy(filled.Hexahedra);
+      vtkPartitionedDataSetCollection::GetData(outputVector, BLOCKS)->ShallowCopy(filled.Blocks);
       if (given.empty())
       {
         domains.push_back(FillCubesAlone(filled, patches, chain, Filled, FilledAgain));
@@ -347,7 +350,7 @@ void vtkTSplineReconstruction::FitParts(vtkImageData* image, bool labelled,
   {
     vtkImageData::GetData(outputVector, FIELDS)->ShallowCopy(segments);
   }
-  std::vector<FilledDomains> domains;
+  SegmentFitOptions options;
   double range[2];
   segments->GetPointData()->GetArray("Segment")->GetRange(range);
   if (range[0] < range[1])
@@ -360,15 +363,13 @@ void vtkTSplineReconstruction::FitParts(vtkImageData* image, bool labelled,
     surfaces->ShallowCopy(boundary->GetOutput());
     if (this->Domain != SEGMENTS)
     {
-      domains = this->Fill(segments, surfaces, given, chain, outputVector);
+      options.Domains = this->Fill(segments, surfaces, given, chain, outputVector);
     }
   }
-  SegmentFitOptions options;
   options.Array = image->GetPointData()->GetArrayName(0);
   options.Further = this->Attributes;
   options.MaximumControlPoints = this->MaximumNumberOfControlPoints;
   options.RmsTolerance = this->RMSTolerance;
-  options.Domains = std::move(domains);
   options.Compared = given.empty();
   std::vector<std::string> why;
   vtkTable* rounds = vtkTable::GetData(outputVector, ROUNDS);
@@ -420,11 +421,9 @@ int vtkTSplineReconstruction::RequestData(
       else
       {
         vtkDataArray* labels = this->ChosenLabels(input);
-        std::vector<GivenDomain> given;
-        if (this->Domain == GIVEN)
-        {
-          given = ReadGivenDomains(vtkUnstructuredGrid::GetData(inputVector[1]));
-        }
+        const auto given = this->Domain == GIVEN
+                             ? ReadGivenDomains(vtkUnstructuredGrid::GetData(inputVector[1]))
+                             : std::vector<GivenDomain>();
         this->FitParts(
           MakeImage(input, arrays, labels), labels != nullptr, given, chain, outputVector);
       }

@@ -48,10 +48,12 @@
  * Port 4: vtkPolyData, patches, of vtkPolycubeDomain. Port 5: vtkUnstructuredGrid, polycubes, and
  * port 6: vtkImageData, fields, both of vtkVolumeParameterization (frames, Parameter,
  * ParameterMask, Block; of the domain with its layers; without domains the image of port 2). Port
- * 7: vtkUnstructuredGrid, hexahedra of vtkHexRemesh. Those and the block meshes behind the
- * parameters have cells two voxels long, or as long as 30,000 of them fill the image if that is
- * more. With the field data InvertedCells (double x 2, before and after repair) and ScaledJacobian
- * (double x 2, least and mean).
+ * 7: vtkUnstructuredGrid, hexahedra of vtkHexRemesh. Port 8: vtkPartitionedDataSetCollection, the
+ * block meshes behind the parameters, of vtkVolumeParameterization: with the fields and polycubes
+ * they are what vtkTSplineFit needs to fit anew over the domain. Hexahedra and blocks have cells
+ * two voxels long, or as long as 30,000 of them fill the image if that is more. With the field data
+ * InvertedCells (double x 2, before and after repair) and ScaledJacobian (double x 2, least and
+ * mean).
  *
  * @par Cost
  * The sum of the steps; memory that of the most expensive one. Threaded with vtkSMPTools; the

@@ -5,11 +5,14 @@
 #include "vtkPolycubeDomain.h"
 #include "vtkReconstructionReport.h"
 #include "vtkSegmentBoundary.h"
+#include "vtkTSplineFit.h"
 
 #include "vtkCellData.h"
 #include "vtkFieldData.h"
 #include "vtkMeshQuality.h"
+#include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
+#include "vtkStructuredGrid.h"
 #include "vtkTable.h"
 
 #include <array>
@@ -185,6 +188,7 @@ TEST(TSplineReconstruction, TakesOneSplineForAllWhereThatIsBetter)
   box->Update();
   ExpectSame(reconstruction->GetOutput(), box->GetOutput());
   EXPECT_GT(Output<vtkUnstructuredGrid>(reconstruction, 7)->GetNumberOfCells(), 0);
+  EXPECT_GT(Output<vtkPartitionedDataSetCollection>(reconstruction, 8)->GetNumberOfCells(), 0);
   // There are patches with corners, but no spline over them.
   const auto report = ReportOn(reconstruction);
   for (vtkIdType row = 0; row < 3; ++row)
@@ -249,6 +253,40 @@ TEST(TSplineReconstruction, TakesCubesAndCornersThatAreGiven)
   EXPECT_TRUE(std::isnan(cell(0, "Corners")));
   EXPECT_EQ(cell(1, "Corners"), double(wanted.size()));
   EXPECT_EQ(cell(2, "Corners"), double(wanted.size()));
+}
+
+//------------------------------------------------------------------------------
+// What the reconstruction has found on its way is enough to fit anew over the domain.
+TEST(TSplineReconstruction, GivesWhatAnotherFitOverTheDomainNeeds)
+{
+  const auto image = Phantom();
+  auto reconstruction = Reconstruct(image);
+  reconstruction->SetDomainToGiven();
+  reconstruction->SetInputData(1, FoundDomain(image));
+  reconstruction->Update();
+  auto* blocks = Output<vtkPartitionedDataSetCollection>(reconstruction, 8);
+  ASSERT_EQ(static_cast<vtkIdType>(blocks->GetNumberOfPartitionedDataSets()),
+    Output<vtkUnstructuredGrid>(reconstruction, 5)->GetNumberOfCells());
+  for (unsigned int block = 0; block < blocks->GetNumberOfPartitionedDataSets(); ++block)
+  {
+    EXPECT_TRUE(vtkStructuredGrid::SafeDownCast(blocks->GetPartition(block, 0)));
+  }
+  vtkNew<vtkTSplineFit> fit;
+  fit->SetInputConnection(0, reconstruction->GetOutputPort(6));
+  fit->SetInputConnection(1, reconstruction->GetOutputPort(5));
+  fit->SetInputConnection(2, reconstruction->GetOutputPort(8));
+  fit->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
+  double error[2];
+  for (const int most : { 1000, 3000 })
+  {
+    fit->SetMaximumNumberOfControlPoints(most);
+    fit->Update();
+    auto* rounds = vtkTable::SafeDownCast(fit->GetOutputDataObject(1));
+    ASSERT_GT(rounds->GetNumberOfRows(), 0);
+    error[most == 3000] = rounds->GetValueByName(rounds->GetNumberOfRows() - 1, "RMS").ToDouble();
+  }
+  EXPECT_LT(error[0], 8.0);
+  EXPECT_LT(error[1], 0.5 * error[0]);
 }
 
 //------------------------------------------------------------------------------
