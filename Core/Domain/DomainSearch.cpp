@@ -114,15 +114,9 @@ SegmentDomain DomainSearch::Best()
 {
   this->Small =
     std::make_unique<SurfaceMesh>(Reduced(this->Mesh, FewTriangles, this->Run.Part(0.0, 0.1)));
-  Index triangles = this->Mesh.NumberOfTriangles();
-  for (int level = 0; this->IsSphere && level <= MostRefinement && this->Found.empty(); ++level)
+  if (this->IsSphere)
   {
-    if (level > 0 && triangles > EnoughTriangles)
-    {
-      break;
-    }
-    triangles *= 4;
-    this->Try([this, level]() { this->TryCubeAndChains(level); });
+    this->OfferCubeOrChain();
   }
   this->Try([this]() { this->TryFlatPolycube(); });
   if (this->IsSphere)
@@ -198,9 +192,9 @@ bool DomainSearch::IsWorthwhile(Index corners)
 // good but for that, alignment decides.
 double DomainSearch::MarginOf(const SegmentDomain& domain, bool isCoarse) const
 {
-  if (domain.Cubes.Cubes.size() == 1 && !this->Found.empty() && this->Found.front().IsOfCharts)
+  if (domain.Cubes.Cubes.size() == 1 && this->Charts)
   {
-    return domain.Alignment > this->Found.front().Domain->Alignment ? -Margin : Margin;
+    return domain.Alignment > this->ChartAlignment ? -Margin : Margin;
   }
   return isCoarse ? Margin : 0.0;
 }
@@ -226,8 +220,14 @@ bool DomainSearch::OfferCorners(
 }
 
 //------------------------------------------------------------------------------
-void DomainSearch::LayOut(Candidate& candidate) const
+void DomainSearch::LayOut(Candidate& candidate)
 {
+  if (candidate.IsOfCharts)
+  {
+    candidate.Domain = this->FindCubeOrChain(this->Mesh);
+    candidate.Cubes = candidate.Domain ? candidate.Domain->Cubes : candidate.Cubes;
+    return;
+  }
   candidate.Domain = std::make_unique<SegmentDomain>(
     DomainFromCorners(this->Mesh, candidate.Cubes, candidate.Corners, this->Run.Part(0.8, 0.85)));
 }
@@ -241,17 +241,65 @@ double DomainSearch::AlignmentValue(const SegmentDomain& domain) const
 }
 
 //------------------------------------------------------------------------------
-// On the surface itself or, where its triangles are too few for six charts, on one with each of
-// them cut in four, `level` times.
-void DomainSearch::TryCubeAndChains(int level)
+// A cube from charts, or a chain cut from it: of the surface of few triangles, if it has charts,
+// and laid out on the surface itself only if it is the best.
+void DomainSearch::OfferCubeOrChain()
 {
-  this->Charts = std::make_unique<ChartDomain>(
-    this->Mesh, level, this->Options.Charts, this->Run.Part(0.1, 0.5));
+  const bool isFew = this->Mesh.NumberOfTriangles() <= 3 * FewTriangles;
+  std::unique_ptr<SegmentDomain> domain;
+  const SurfaceMesh* on = isFew ? &this->Mesh : this->Small.get();
+  domain = this->FindCubeOrChain(*on);
+  if (!domain && !isFew)
+  {
+    on = &this->Mesh;
+    domain = this->FindCubeOrChain(*on);
+  }
+  if (domain)
+  {
+    this->ChartAlignment = domain->Alignment;
+    const Polycube cubes = domain->Cubes;
+    const double quality = this->QualityOfCube(this->Charts->Cube());
+    domain = on == &this->Mesh ? std::move(domain) : nullptr;
+    this->Found.push_back({ cubes, {}, quality, std::move(domain), true });
+  }
+}
+
+//------------------------------------------------------------------------------
+// On a surface as it is or, where its triangles are too few for six charts, with each of them cut
+// in four once or twice. Null where there is none.
+std::unique_ptr<SegmentDomain> DomainSearch::FindCubeOrChain(const SurfaceMesh& mesh)
+{
+  std::unique_ptr<SegmentDomain> found;
+  Index triangles = mesh.NumberOfTriangles();
+  for (int level = 0; level <= MostRefinement && !found; ++level)
+  {
+    if (level > 0 && triangles > EnoughTriangles)
+    {
+      break;
+    }
+    triangles *= 4;
+    this->Try(
+      [&]()
+      {
+        this->Charts = std::make_unique<ChartDomain>(
+          mesh, level, this->Options.Charts, this->Run.Part(0.1, 0.5));
+        found = std::make_unique<SegmentDomain>(this->CubeOrChain());
+      });
+  }
+  if (!found)
+  {
+    this->Charts.reset();
+  }
+  return found;
+}
+
+//------------------------------------------------------------------------------
+SegmentDomain DomainSearch::CubeOrChain()
+{
   const ChartDomain& charts = *this->Charts;
   SegmentDomain best = charts.Cube();
   RefuseInvalid(CheckLayout(best.Layout, best.Cubes));
   const bool isCubeSound = IsSound(best);
-  const double quality = this->QualityOfCube(best);
   const auto isSoundInChain = [&](Index cubes)
   {
     bool sound = false;
@@ -278,14 +326,13 @@ void DomainSearch::TryCubeAndChains(int level)
   for (Index cubes = 2; !isCubeSound && cubes <= MostForBends && !isSoundInChain(cubes); ++cubes)
   {
   }
-  this->Found.push_back(
-    { best.Cubes, {}, quality, std::make_unique<SegmentDomain>(std::move(best)), true });
+  return best;
 }
 
 //------------------------------------------------------------------------------
-// With geodesics between its corners on the surface of few triangles or, where that is the surface
-// or nearly so, as it is, whichever is better. 0 where it cannot be laid out, or corners are too
-// dear for more cubes.
+// As it is, if its triangles are few, or with geodesics between its corners on the surface of few
+// triangles, whichever is better. 0 where it cannot be laid out, or corners are too dear for more
+// cubes.
 double DomainSearch::QualityOfCube(const SegmentDomain& cube)
 {
   double quality = 0.0;
@@ -295,7 +342,7 @@ double DomainSearch::QualityOfCube(const SegmentDomain& cube)
   if (this->Value(1.0, 12) > this->Value(0.0, 8))
   {
     this->Try([&]() { judge(DomainFromCorners(*this->Small, cube.Cubes, CornersOf(cube), run)); });
-    if (this->Mesh.NumberOfTriangles() <= 3 * FewTriangles)
+    if (cube.Layout.Triangles.size() <= std::size_t(4 * FewTriangles))
     {
       this->Try([&]() { judge(cube); });
     }

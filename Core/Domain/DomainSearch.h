@@ -31,14 +31,16 @@ private:
 
   template <typename Attempt>
   void Try(const Attempt& attempt);
-  void TryCubeAndChains(int level);
+  void OfferCubeOrChain();
+  std::unique_ptr<SegmentDomain> FindCubeOrChain(const SurfaceMesh& mesh);
+  SegmentDomain CubeOrChain();
   void TryFlatPolycube();
   void TryCoarsePolycubes();
   std::vector<Fitted> FitCoarsePolycubes();
   bool OfferCorners(
     const Polycube& cubes, const std::vector<Eigen::Vector3d>& corners, bool isCoarse);
   double MarginOf(const SegmentDomain& domain, bool isCoarse) const;
-  void LayOut(Candidate& candidate) const;
+  void LayOut(Candidate& candidate);
   double Value(double quality, Index corners) const;
   double AlignmentValue(const SegmentDomain& domain) const;
   double QualityOfCube(const SegmentDomain& cube);
@@ -50,8 +52,9 @@ private:
   const DomainOptions& Options;
   const Execution& Run;
   const bool IsSphere;
-  std::unique_ptr<SurfaceMesh> Small; // of fewer triangles
-  std::unique_ptr<ChartDomain> Charts;
+  std::unique_ptr<SurfaceMesh> Small;  // of fewer triangles
+  std::unique_ptr<ChartDomain> Charts; // of the surface or of that of fewer triangles
+  double ChartAlignment = 0.0;
   std::vector<Candidate> Found;
   std::string Reasons;
 };

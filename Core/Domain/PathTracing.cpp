@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <unordered_set>
 
 namespace trivariate
 {
@@ -24,6 +25,7 @@ struct Station
 std::vector<Station> StationsOf(const LayoutMesh& mesh, const Geodesic& path)
 {
   std::vector<Station> stations;
+  std::unordered_set<Index> points; // of them
   for (std::size_t i = 0; i < path.Crossings.size(); ++i)
   {
     const Index t = path.Crossings[i] / 3, side = path.Crossings[i] % 3;
@@ -44,12 +46,15 @@ std::vector<Station> StationsOf(const LayoutMesh& mesh, const Geodesic& path)
       const double high = 1.0 - (mesh.Occupied[station.Left] ? Clearance : SnapDistance);
       station.Fraction = std::min(std::max(station.Fraction, low), high);
     }
-    if (station.Point >= 0)
+    if (station.Point >= 0 && !points.insert(station.Point).second)
     {
       // The way from a point back to itself is left out.
-      const auto known = std::find_if(stations.begin(), stations.end(),
-        [&station](const Station& other) { return other.Point == station.Point; });
-      stations.erase(known, stations.end());
+      while (stations.back().Point != station.Point)
+      {
+        points.erase(stations.back().Point);
+        stations.pop_back();
+      }
+      stations.pop_back();
     }
     stations.push_back(station);
   }
