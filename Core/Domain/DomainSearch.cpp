@@ -28,9 +28,9 @@ using Eigen::Vector3d;
 constexpr int MostRefinement = 2;
 constexpr Index EnoughTriangles = 20000; // six charts need no more
 constexpr Index FewTriangles = 2000;     // enough to tell how good hexahedra become
-constexpr double GoodHexahedra = 0.86;   // of one cube: more are not looked for
+constexpr double GoodHexahedra = 0.83;   // of one cube: more are not looked for
 constexpr double WantingShare = 0.25;    // of what one cube's want to 1: more cubes' want as much
-constexpr double Margin = 0.03;          // in hexahedra, see MarginOf
+constexpr double Margin = 0.035;         // in hexahedra, see MarginOf
 constexpr double AlignmentRate = 3.0;    // what a mean scaled Jacobian is worth in alignment
 constexpr double UnsoundCost = 0.05;     // in alignment, of cubes inverted between their corners
 constexpr Index MostForBends = 8;        // cubes
@@ -330,23 +330,19 @@ SegmentDomain DomainSearch::CubeOrChain()
 }
 
 //------------------------------------------------------------------------------
-// As it is, if its triangles are few, or with geodesics between its corners on the surface of few
-// triangles, whichever is better. 0 where it cannot be laid out, or corners are too dear for more
-// cubes.
+// As it is or, if its triangles are many, with geodesics between its corners on the surface of few
+// triangles. 0 where it cannot be laid out there.
 double DomainSearch::QualityOfCube(const SegmentDomain& cube)
 {
   double quality = 0.0;
   const Execution run = this->Run.Part(0.5, 0.5);
-  const auto judge = [&](const SegmentDomain& domain)
-  { quality = std::max(quality, CoarseHexahedra(domain, run)); };
-  if (this->Value(1.0, 12) > this->Value(0.0, 8))
-  {
-    this->Try([&]() { judge(DomainFromCorners(*this->Small, cube.Cubes, CornersOf(cube), run)); });
-    if (cube.Layout.Triangles.size() <= std::size_t(4 * FewTriangles))
+  this->Try(
+    [&]()
     {
-      this->Try([&]() { judge(cube); });
-    }
-  }
+      const bool isFew = cube.Layout.Triangles.size() <= std::size_t(4 * FewTriangles);
+      quality = CoarseHexahedra(
+        isFew ? cube : DomainFromCorners(*this->Small, cube.Cubes, CornersOf(cube), run), run);
+    });
   return quality;
 }
 

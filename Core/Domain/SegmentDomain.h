@@ -43,12 +43,13 @@ struct SegmentDomain
  * long, or so bent that it is inverted, which have its hexahedra and are chosen by alignment (less
  * 0.05 where a cube, straight between its corners, is inverted); on a surface with flat parts
  * (FlatPolycube.h) their polycube, the only one that may have handles; and, where these have
- * hexahedra below 0.86, polycubes that fill the solid about as well as so few cubes can
- * (CoarsePolycube.h). Those must be better by 0.03, lest what is only rough gets cubes; between
+ * hexahedra below 0.83, polycubes that fill the solid about as well as so few cubes can
+ * (CoarsePolycube.h). Those must be better by 0.035, lest what is only rough gets cubes; between
  * cubes with hexahedra closer than that, alignment decides.
  *
- * Hexahedra are judged on a surface of few triangles. Only the best is laid out on the surface
- * itself. A surface with too few triangles is cut finer. Borders of the best one are relaxed if
+ * Candidates are found and judged on a surface of few triangles; a cube whose charts it does not
+ * have, on the surface itself. Only the best is laid out there. A surface with too few triangles is
+ * cut finer. Borders of the best one are relaxed if
  * wanted (RelaxedLayout.h).
  *
  * Throws std::invalid_argument for a surface of several pieces, std::runtime_error with the reasons

@@ -8,7 +8,8 @@
 
 #include <Eigen/Geometry>
 
-#include <algorithm>
+#include <unordered_set>
+#include <vector>
 
 namespace trivariate
 {
@@ -56,17 +57,17 @@ template <typename Accept>
 Eigen::Vector3d SurfaceWalk::AreaAround(Index point, double radius, const Accept& accept) const
 {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  std::vector<Index> points{ point }, seen, taken;
+  std::vector<Index> points{ point };
+  std::unordered_set<Index> reached{ point }, taken;
   for (std::size_t next = 0; next < points.size(); ++next)
   {
     for (Index i = this->FanStart[points[next]]; i < this->FanStart[points[next] + 1]; ++i)
     {
       const Index t = this->Fans[i];
-      if (!accept(t) || std::find(taken.begin(), taken.end(), t) != taken.end())
+      if (!accept(t) || !taken.insert(t).second)
       {
         continue;
       }
-      taken.push_back(t);
       const Triangle& c = this->Triangles[t];
       sum +=
         0.5 *
@@ -74,7 +75,7 @@ Eigen::Vector3d SurfaceWalk::AreaAround(Index point, double radius, const Accept
       for (const Index corner : c)
       {
         if ((this->Points[corner] - this->Points[point]).norm() < radius &&
-            std::find(points.begin(), points.end(), corner) == points.end())
+            reached.insert(corner).second)
         {
           points.push_back(corner);
         }
