@@ -209,7 +209,7 @@ bool DomainSearch::OfferCorners(
   {
     const Execution run = this->Run.Part(0.7, 0.7);
     const SegmentDomain small = DomainFromCorners(*this->Small, cubes, corners, run);
-    if (!IsSound(small))
+    if (!isCoarse && !IsSound(small)) // that has no margin to make good
     {
       return false;
     }
@@ -246,9 +246,8 @@ double DomainSearch::AlignmentValue(const SegmentDomain& domain) const
 void DomainSearch::OfferCubeOrChain()
 {
   const bool isFew = this->Mesh.NumberOfTriangles() <= 3 * FewTriangles;
-  std::unique_ptr<SegmentDomain> domain;
   const SurfaceMesh* on = isFew ? &this->Mesh : this->Small.get();
-  domain = this->FindCubeOrChain(*on);
+  std::unique_ptr<SegmentDomain> domain = this->FindCubeOrChain(*on);
   if (!domain && !isFew)
   {
     on = &this->Mesh;
@@ -257,10 +256,12 @@ void DomainSearch::OfferCubeOrChain()
   if (domain)
   {
     this->ChartAlignment = domain->Alignment;
-    const Polycube cubes = domain->Cubes;
     const double quality = this->QualityOfCube(this->Charts->Cube());
-    domain = on == &this->Mesh ? std::move(domain) : nullptr;
-    this->Found.push_back({ cubes, {}, quality, std::move(domain), true });
+    this->Found.push_back({ domain->Cubes, {}, quality, nullptr, true });
+    if (on == &this->Mesh)
+    {
+      this->Found.back().Domain = std::move(domain);
+    }
   }
 }
 

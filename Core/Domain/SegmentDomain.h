@@ -42,15 +42,14 @@ struct SegmentDomain
  * CheckLayout finds nothing in it. Tried are one cube; chains of cubes cut from it where it is
  * long, or so bent that it is inverted, which have its hexahedra and are chosen by alignment (less
  * 0.05 where a cube, straight between its corners, is inverted); on a surface with flat parts
- * (FlatPolycube.h) their polycube, the only one that may have handles; and, where these have
- * hexahedra below 0.83, polycubes that fill the solid about as well as so few cubes can
+ * (FlatPolycube.h) their polycube, if sound, the only one that may have handles; and, where these
+ * have hexahedra below 0.83, polycubes that fill the solid about as well as so few cubes can
  * (CoarsePolycube.h). Those must be better by 0.035, lest what is only rough gets cubes; between
  * cubes with hexahedra closer than that, alignment decides.
  *
  * Candidates are found and judged on a surface of few triangles; a cube whose charts it does not
  * have, on the surface itself. Only the best is laid out there. A surface with too few triangles is
- * cut finer. Borders of the best one are relaxed if
- * wanted (RelaxedLayout.h).
+ * cut finer. Borders of the best one are relaxed if wanted (RelaxedLayout.h).
  *
  * Throws std::invalid_argument for a surface of several pieces, std::runtime_error with the reasons
  * (and the place of a handle) where no domain can be laid out. O(n log n) beside one sparse
