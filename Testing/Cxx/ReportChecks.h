@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <string>
 
 namespace trivariate
 {
@@ -70,6 +71,11 @@ inline double Cell(vtkReconstructionReport* report, vtkIdType row, const char* c
   vtkTable* table = report->GetOutput();
   EXPECT_NE(table->GetColumnByName(column), nullptr) << column;
   return table->GetValueByName(row, column).ToDouble();
+}
+
+inline std::string DomainIn(vtkReconstructionReport* report, vtkIdType row)
+{
+  return report->GetOutput()->GetValueByName(row, "Domain").ToString();
 }
 
 // Two splines in one parameter space, the second one 100 further along u.

@@ -9,14 +9,17 @@
 #include "vtkDoubleArray.h"
 #include "vtkIntArray.h"
 #include "vtkPolyData.h"
+#include "vtkStringArray.h"
 #include "vtkTriangleFilter.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkZLibDataCompressor.h"
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <map>
 
 using namespace trivariate;
 
@@ -43,6 +46,7 @@ TEST(ReconstructionReport, OfTheImageThatASplineIsHasNoErrors)
     EXPECT_EQ(Cell(report, row, "ControlPoints"), n);
     EXPECT_EQ(Cell(report, row, "NumbersStored"), n + 12.0); // the geometry is affine
     EXPECT_EQ(Cell(report, row, "Blocks"), 1.0);
+    EXPECT_EQ(DomainIn(report, row), "ImageBox");
     EXPECT_NEAR(Cell(report, row, "MinimumScaledJacobian"), 1.0, 1e-12);
     EXPECT_EQ(Cell(report, row, "InvertedCells"), 0.0);
     EXPECT_EQ(Cell(report, row, "RawBytes"), 8.0 * voxels);
@@ -144,6 +148,7 @@ TEST(ReconstructionReport, ComparesEachVoxelWithTheSplineOfItsSegment)
     EXPECT_LT(Cell(report, row, "RMSPercent"), 1e-11);
     EXPECT_EQ(Cell(report, row, "FoundPercent"), 100.0);
     EXPECT_EQ(Cell(report, row, "LabelBytes") > 0.0, row == 2);
+    EXPECT_EQ(DomainIn(report, row), "SegmentBox");
   }
   EXPECT_EQ(Cell(report, 2, "RawBytes"), Cell(report, 0, "RawBytes") + Cell(report, 1, "RawBytes"));
   EXPECT_LT(Cell(report, 2, "SplineBytes"),
@@ -162,6 +167,7 @@ TEST(ReconstructionReport, ComparesEachVoxelWithTheSplineOfItsSegment)
   report->Update();
   EXPECT_EQ(Cell(report, 0, "FoundPercent"), 0.0);
   EXPECT_TRUE(std::isnan(Cell(report, 0, "ControlPoints")));
+  EXPECT_EQ(DomainIn(report, 0), "None");
 }
 
 //------------------------------------------------------------------------------
@@ -205,7 +211,60 @@ TEST(ReconstructionReport, TakesTheVoxelsOwnParameters)
   EXPECT_EQ(Cell(report, 1, "FoundPercent"), 100.0);
   EXPECT_TRUE(std::isnan(Cell(report, 0, "RMSPercent")));
   EXPECT_EQ(Cell(report, 2, "NumbersStored"), double(model.Spline.Size() * 6));
+  EXPECT_EQ(DomainIn(report, 1), "Cubes"); // what is not affine, without rounds that tell more
   EXPECT_NEAR(Cell(report, 2, "MinimumScaledJacobian"), 1.0, 1e-9);
+}
+
+//------------------------------------------------------------------------------
+// Where the image has no parameters the rounds tell: the last ones of each segment, in percent of
+// the segment's range.
+TEST(ReconstructionReport, TakesErrorsAndDomainsOverCubesFromTheRounds)
+{
+  const auto grid =
+    Together(Moved(QuarterAnnulus(3, 1), 0.0, 1), Moved(QuarterAnnulus(2, 1), 0.0, 2));
+  auto image = Lattice(9, 9, 5);
+  image->SetSpacing(0.25, 0.25, 0.25);
+  AddArray<vtkDoubleArray>(image, "Radial", [](const double* x) { return 10.0 * x[0]; }); // to 20
+  AddArray<vtkIntArray>(image, "Segment", [](const double* x) { return x[2] < 0.1 ? 1.0 : 2.0; });
+  vtkNew<vtkTable> rounds;
+  const std::map<const char*, std::array<double, 3>> columns = { { "Segment", { 1.0, 1.0, 2.0 } },
+    { "RMS", { 9.0, 2.0, 5.0 } }, { "Seconds", { 1.0, 3.0, 4.0 } },
+    { "Range", { 8.0, 8.0, 2.0 } } };
+  for (const auto& [name, values] : columns)
+  {
+    vtkNew<vtkDoubleArray> column;
+    column->SetName(name);
+    for (const double value : values)
+    {
+      column->InsertNextValue(value);
+    }
+    rounds->AddColumn(column);
+  }
+  vtkNew<vtkStringArray> domains;
+  domains->SetName("Domain");
+  for (const char* name : { "LayeredCubes", "LayeredCubes", "Cubes" })
+  {
+    domains->InsertNextValue(name);
+  }
+  rounds->AddColumn(domains);
+  auto report = MakeReport(image, "Radial", grid);
+  report->SetInputData(3, rounds);
+  report->Update();
+  const double first = 100.0 * 0.02 * 8.0 / 20.0, second = 100.0 * 0.05 * 2.0 / 20.0;
+  EXPECT_NEAR(Cell(report, 0, "RMSPercent"), first, 1e-12);
+  EXPECT_NEAR(Cell(report, 1, "RMSPercent"), second, 1e-12);
+  EXPECT_NEAR(Cell(report, 2, "RMSPercent"),
+    std::sqrt((first * first + 4.0 * second * second) / 5.0), 1e-12); // one of five layers
+  EXPECT_EQ(DomainIn(report, 0), "LayeredCubes");
+  EXPECT_EQ(DomainIn(report, 1), "Cubes");
+  EXPECT_EQ(DomainIn(report, 2), "Mixed");
+  EXPECT_EQ(Cell(report, 2, "Seconds"), 7.0);
+
+  // Without the range nothing is known of the errors.
+  rounds->RemoveColumnByName("Range");
+  report->Modified();
+  report->Update();
+  EXPECT_TRUE(std::isnan(Cell(report, 0, "RMSPercent")));
 }
 
 //------------------------------------------------------------------------------
