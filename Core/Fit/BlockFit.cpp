@@ -3,7 +3,7 @@
 #include "BlockFit.h"
 
 #include "BlockFitInput.h"
-#include "DataPull.h"
+#include "DataFollow.h"
 #include "FitSteps.h"
 #include "RefinementHistory.h"
 #include "RefinementMarks.h"
@@ -37,17 +37,13 @@ constexpr int RoundSteps = 3;
 // does, enough to be smooth inside where the block mesh is not.
 constexpr float Stiffness = 2e-6f;
 
-// How often the shape follows the attributes' errors, and how far each time: longer than the errors
-// at fixed attributes ask for, for these give way in turn. The barrier (see ShapeSolver.h), large
-// at first to open cells that nearly fold, becomes less with each step.
-constexpr int MostFollows = 10;
-constexpr int FollowSteps = 4; // of the shape
-constexpr double FollowFactor = 4.0;
-constexpr double FollowBarrier = 0.03, LeastFollowBarrier = 3e-5;
-
-// What the squared error of a voxel in parts of the range counts: of a hundredth as much as a
-// sample of the held surface (see ShapeTarget.h) that is off by 0.014 voxels.
-constexpr float DataWeight = 3000.0f;
+// How often the shape follows the attributes' errors, and how often in a row an error may fall by
+// less than a share; with a barrier (see ShapeSolver.h) that becomes less each time, and damped
+// (see DataErrors.h), more where the error has not fallen.
+constexpr int MostFollows = 10, MostVain = 3;
+constexpr double LeastGain = 0.01;
+constexpr double FollowBarrier = 0.03, FollowLowering = 0.5;
+constexpr double FollowDamping = 4e-4;
 
 // One stage: some components are fitted to some samples, and the spline is refined for them.
 struct Stage
@@ -200,13 +196,16 @@ private:
   {
     // What FitAttributes has made it, or a clone that Marks has put in its place.
     const auto& history = static_cast<const RefinementHistory&>(*this->Rule);
-    double barrier = FollowBarrier;
-    for (int follow = 0; follow < MostFollows && barrier >= LeastFollowBarrier; ++follow)
+    double barrier = FollowBarrier, damping = FollowDamping;
+    for (int follow = 0, vain = 0; follow < MostFollows && vain < MostVain;
+         ++follow, barrier *= FollowLowering)
     {
       const BlockFitResult before = this->Result;
       const std::vector<double> parameters = samples.Parameters;
-      TSpline moved = shape;
-      this->MoveToData(stage, samples, barrier, target, moved);
+      const TSpline moved = MoveToData({ this->Result.Spline, this->Layout, samples, stage.System,
+                                         stage.Scales, target, this->Options.Spacing },
+        shape, barrier, damping, this->Run);
+      this->Lap("follow");
       samples.Parameters = this->FindParameters(moved, parameters);
       this->Result.Spline = moved;
       history.Repeat(rule, this->Result.Spline);
@@ -219,40 +218,21 @@ private:
       stage.System.ComputeResiduals(this->Result.Spline);
       this->Solve(stage, FinalTolerance, FinalIterations);
       this->Measure(stage);
-      const bool folds = this->Result.FoldedCells > before.FoldedCells;
-      if (folds || this->Result.Rounds.back().Rms >= before.Rounds.back().Rms)
+      const double gain = 1.0 - this->Result.Rounds.back().Rms / before.Rounds.back().Rms;
+      vain = gain < LeastGain ? vain + 1 : 0;
+      if (gain <= 0.0)
       {
         this->Result = before;
         samples.Parameters = parameters;
-        barrier *= folds ? 10.0 : 0.1;
+        this->Update(stage);
+        stage.System.ComputeResiduals(this->Result.Spline);
+        damping *= 10.0;
         continue;
       }
-      shape = std::move(moved);
-      barrier *= 0.5;
+      shape = moved;
       this->Result.ShapeRms = target.Distance().Rms;
       this->Result.ShapeMaximum = target.Distance().Maximum;
     }
-  }
-
-  void MoveToData(const Stage& stage, const ScatteredSamples& samples, double barrier,
-    ShapeTarget& target, TSpline& shape)
-  {
-    DataPull pull = PullToData(
-      this->Result.Spline, samples, stage.Scales, this->Options.Spacing, FollowFactor, this->Run);
-    for (float& weight : pull.Weights)
-    {
-      weight *= DataWeight;
-    }
-    target.Follow(samples.Parameters, pull.Places, pull.Weights);
-    ScatteredSystem system(target.Samples(), 0, this->Layout, this->Run);
-    system.Update(shape);
-    ShapeSolverOptions options;
-    options.Spacing = this->Options.Spacing;
-    options.FirstBarrier = options.LastBarrier = barrier;
-    options.MostSteps = FollowSteps;
-    SolveShape(shape, system, target, options, this->Run);
-    target.Release();
-    this->Lap("follow");
   }
 
   void Adapt(Stage& stage)

@@ -9,7 +9,7 @@
  * nested in that of the attributes. Then every voxel takes the parameters at which this shape
  * passes through it, and the attributes are fitted there, as in FitGrid. Where the shape has a
  * surface to slide on, it then follows the errors of the attributes, on its own net and with its
- * surface held (DataPull.h); voxels take their parameters on it and the attributes are fitted
+ * surface held (DataErrors.h); voxels take their parameters on it and the attributes are fitted
  * again, with the functions that they have, a few times and as long as the error falls.
  */
 #ifndef trivariate_BlockFit_h

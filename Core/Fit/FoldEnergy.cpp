@@ -4,6 +4,7 @@
 
 #include "CellBasis.h"
 #include "Parameter/CornerEnergy.h"
+#include "PartLattice.h"
 #include "ScatteredSystem.h"
 
 #include <algorithm>
@@ -25,95 +26,9 @@ constexpr double Shallow = 0.005;  // and not less than of a fold so deep
 
 constexpr double Evenness = 1.0; // the size counts as much as the shape
 
-constexpr int PartLine = 5; // points of a part along each axis
-
 // A part of a cell, of each level, is halved along all axes where points of its halves have a
 // determinant so small.
-constexpr double Nearly[] = { 0.1, 0.02, 0.005 };
-constexpr int MostHalvings = 3;
-
-// The cubic Bernstein polynomials, and their derivatives, at five equal distances of an interval in
-// the unit interval, its ends among them.
-struct Line
-{
-  using Values = Eigen::Matrix<double, PartLine, 4>;
-  Values Polynomials, Slopes;
-
-  Line(int halvings, int place)
-  {
-    for (int i = 0; i < PartLine; ++i)
-    {
-      const double s = (place + i / (PartLine - 1.0)) / (1 << halvings), r = 1.0 - s;
-      this->Polynomials.row(i) << r * r * r, 3 * r * r * s, 3 * r * s * s, s * s * s;
-      this->Slopes.row(i) << -3 * r * r, 3 * r * (r - 2 * s), 3 * s * (2 * r - s), 3 * s * s;
-    }
-  }
-
-  const Values& Along(int direction, int derivative) const
-  {
-    return direction == derivative ? this->Slopes : this->Polynomials;
-  }
-};
-
-const Line& LineOf(int halvings, int place)
-{
-  static const std::vector<Line> lines = []()
-  {
-    std::vector<Line> all;
-    for (int h = 0; h <= MostHalvings; ++h)
-    {
-      for (int i = 0; i < 1 << h; ++i)
-      {
-        all.emplace_back(h, i);
-      }
-    }
-    return all;
-  }();
-  return lines[(1 << halvings) - 1 + place];
-}
-
-// The polynomials along u, v, w at the points of a part.
-using Lines = std::array<const Line*, 3>;
-using Plane = Eigen::Matrix<double, 16, PartLine>;
-using Pencil = Eigen::Matrix<double, 4, PartLine * PartLine>;
-using PointGrid = Eigen::Matrix<double, PartLine, PartLine * PartLine>;
-
-// The derivative along a of the polynomial with 64 coefficients at all points, u fastest.
-template <typename Coefficients, typename Values>
-void Expand(const Lines& lines, int a, const Coefficients& coefficients, Values&& values)
-{
-  const Plane planes = Eigen::Map<const Eigen::Matrix<double, 16, 4>>(coefficients.data()) *
-                       lines[2]->Along(2, a).transpose();
-  Pencil pencils;
-  for (int k = 0; k < PartLine; ++k)
-  {
-    pencils.template middleCols<PartLine>(PartLine * k).noalias() =
-      Eigen::Map<const Eigen::Matrix4d>(planes.col(k).data()) * lines[1]->Along(1, a).transpose();
-  }
-  Eigen::Map<PointGrid>(values.data()).noalias() = lines[0]->Along(0, a) * pencils;
-}
-
-// The transposed map: adds to the 64 coefficients.
-template <typename Values, typename Coefficients>
-void Reduce(const Lines& lines, int a, const Values& values, Coefficients&& coefficients)
-{
-  const Pencil pencils =
-    lines[0]->Along(0, a).transpose() * Eigen::Map<const PointGrid>(values.data());
-  Plane planes;
-  for (int k = 0; k < PartLine; ++k)
-  {
-    Eigen::Map<Eigen::Matrix4d>(planes.col(k).data()).noalias() =
-      pencils.template middleCols<PartLine>(PartLine * k) * lines[1]->Along(1, a);
-  }
-  Eigen::Map<Eigen::Matrix<double, 16, 4>>(coefficients.data()) += planes * lines[2]->Along(2, a);
-}
-
-template <typename Part>
-Lines LinesOf(const Part& part)
-{
-  return { &LineOf(part.Halvings, part.Place[0]), &LineOf(part.Halvings, part.Place[1]),
-    &LineOf(part.Halvings, part.Place[2]) };
-}
+constexpr double Nearly[] = { 0.1, 0.05, 0.02 };
 
 // J at a point from its row.
 template <typename Rows>
@@ -416,42 +331,89 @@ ShapeNet FoldEnergy::Curve(const ShapeNet& direction) const
 }
 
 //------------------------------------------------------------------------------
-Eigen::SparseMatrix<double> FoldEnergy::CurvatureOfCubes() const
+// The sum over the cell's points of stiffness times the products of derivatives along each axis of
+// the Bernstein polynomials.
+FoldEnergy::CellMatrix FoldEnergy::StiffnessOf(Index firstPart, Index lastPart, bool asCubes) const
 {
-  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::Matrix<double, 256, 16> sum =
+    Eigen::Matrix<double, 256, 16>::Zero(); // (u, u, v, v), (w, w)
+  const Index cell = this->Parts[firstPart].Cell;
+  const Vector3d& lengths = this->Cells[cell].Lengths;
+  // Where a cell folds that spread is too much by far.
+  const bool isCube = asCubes || this->Regularisation[cell] > Sharp;
   const EnergyDerivatives e = CornerDerivatives(3.0, 1.0, 0.0, Evenness);
-  // Of 2 s |dJ|^2 + d (I : dJ)^2, the second spread over all directions.
-  const double factor = 2.0 * e.ByTrace + e.ByDeterminantTwice / 3.0;
-  // The sum over points is a product of sums along u, v, w.
-  const Line& line = LineOf(0, 0);
-  const Eigen::Matrix4d values = line.Polynomials.transpose() * line.Polynomials;
-  const Eigen::Matrix4d slopes = line.Slopes.transpose() * line.Slopes;
-  for (const Cell& cell : this->Cells)
+  const double ofCube = 2.0 * e.ByTrace + e.ByDeterminantTwice / 3.0;
+  for (Index p = firstPart; p < lastPart; ++p)
   {
-    Eigen::Matrix<double, 64, 64> bezier;
-    for (int m = 0; m < 64 * 64; ++m)
+    const Part& part = this->Parts[p];
+    PointGrid stiffness;
+    for (Index point = 0; point < PartPoints; ++point)
     {
-      const int i = m % 64, j = m / 64;
-      double sum = 0.0;
-      for (int a = 0; a < 3; ++a)
-      {
-        double product = 1.0 / (cell.Lengths[a] * cell.Lengths[a]);
-        for (int b = 0; b < 3; ++b)
-        {
-          const int shift = 2 * b;
-          product *= (a == b ? slopes : values)(i >> shift & 3, j >> shift & 3);
-        }
-        sum += product;
-      }
-      bezier(i, j) = sum;
+      const PointCurvature& at = this->Curvature[p][point];
+      // Of 2 s |dJ|^2 + d (cof : dJ)^2, the second spread over all directions.
+      stiffness.data()[point] =
+        isCube ? ofCube
+               : 2.0 * at.ByTrace + at.ByDeterminantTwice * at.Cofactors.squaredNorm() / 9.0;
     }
-    const double scale = factor / static_cast<double>(PartPoints * this->Cells.size());
-    const Eigen::MatrixXd own = scale * cell.Extraction.transpose() * bezier * cell.Extraction;
-    for (Index i = 0; i < own.rows(); ++i)
+    stiffness *= this->ShareOfPoint(part);
+    const Lines lines = LinesOf(part);
+    for (int a = 0; a < 3; ++a)
     {
-      for (Index j = 0; j < own.cols(); ++j)
+      std::array<Squares, 3> squares;
+      for (int b = 0; b < 3; ++b)
       {
-        entries.emplace_back(cell.Points[i], cell.Points[j], own(i, j));
+        squares[b] = SquaresOf(lines[b]->Along(b, a));
+      }
+      const Eigen::Matrix<double, 16, PartLine* PartLine> pencils =
+        squares[0] * stiffness / (lengths[a] * lengths[a]);
+      Eigen::Matrix<double, 256, PartLine> planes;
+      for (int k = 0; k < PartLine; ++k)
+      {
+        Eigen::Map<Eigen::Matrix<double, 16, 16>>(planes.col(k).data()).noalias() =
+          pencils.middleCols<PartLine>(PartLine * k) * squares[1].transpose();
+      }
+      sum.noalias() += planes * squares[2].transpose();
+    }
+  }
+  CellMatrix matrix;
+  for (int m = 0; m < 64 * 64; ++m)
+  {
+    const int i = m % 64, j = m / 64;
+    const auto pair = [i, j](int a) { return (i >> 2 * a & 3) + 4 * (j >> 2 * a & 3); };
+    matrix(i, j) = sum(pair(0) + 16 * pair(1), pair(2));
+  }
+  return matrix;
+}
+
+//------------------------------------------------------------------------------
+Eigen::SparseMatrix<double> FoldEnergy::Stiffness(bool asCubes) const
+{
+  const auto count = static_cast<Index>(this->Cells.size());
+  std::vector<Index> firstPart(count + 1, static_cast<Index>(this->Parts.size()));
+  for (Index p = firstPart[count] - 1; p >= 0; --p)
+  {
+    firstPart[this->Parts[p].Cell] = p;
+  }
+  std::vector<Eigen::MatrixXd> ofCells(count);
+  this->Run.ParallelFor(count,
+    [&](Index begin, Index end)
+    {
+      for (Index c = begin; c < end; ++c)
+      {
+        const Eigen::MatrixXd& extraction = this->Cells[c].Extraction;
+        ofCells[c] = extraction.transpose() *
+                     this->StiffnessOf(firstPart[c], firstPart[c + 1], asCubes) * extraction;
+      }
+    });
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index c = 0; c < count; ++c)
+  {
+    const std::vector<std::int32_t>& points = this->Cells[c].Points;
+    for (std::size_t j = 0; j < points.size(); ++j)
+    {
+      for (std::size_t i = 0; i < points.size(); ++i)
+      {
+        entries.emplace_back(points[i], points[j], ofCells[c](i, j));
       }
     }
   }

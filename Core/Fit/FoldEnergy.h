@@ -55,8 +55,10 @@ public:
   /// that is not convex.
   ShapeNet Curve(const ShapeNet& direction) const;
 
-  /// The curvature at cells that are cubes, the same for X, Y and Z: a matrix of all points.
-  Eigen::SparseMatrix<double> CurvatureOfCubes() const;
+  /// About as large as the curvature at the net of Differentiate, but the same for X, Y and Z, and
+  /// for all directions at a point: a matrix of all points. Cells that fold, or all, as if they
+  /// were cubes.
+  Eigen::SparseMatrix<double> Stiffness(bool asCubes) const;
 
 private:
   static constexpr Index PartPoints = 125; // 5 along each axis, the ends among them
@@ -88,6 +90,8 @@ private:
   double LeastOf(Index cell, const Derivatives& derivatives) const;
   void Halve(const Bezier& bezier, const Part& part, std::vector<Part>& parts) const;
   double ShareOfPoint(const Part& part) const;
+  using CellMatrix = Eigen::Matrix<double, 64, 64>;
+  CellMatrix StiffnessOf(Index firstPart, Index lastPart, bool asCubes) const;
   template <typename Visit>
   ShapeNet Collect(const ShapeNet& net, const Visit& visit) const;
 

@@ -18,32 +18,6 @@ namespace
 // Cells with fewer samples than this get a little fairness, at most as much as this.
 constexpr double EnoughSamples = 8.0;
 constexpr double FairnessOfEmpty = 1e-6;
-
-// sums[i] += the sum against function i of the cell, for all of its functions.
-void AddFunctionSums(const CellBasis& basis, const Moments64& moments, std::vector<double>& sums)
-{
-  const IdRange active = basis.Active();
-  double plane[16], line[4] = {};
-  int w = -1, v = -1;
-  for (Index n = 0; n < active.size(); ++n)
-  {
-    const std::array<int, 3>& number = basis.Numbers[n];
-    if (number[2] != w)
-    {
-      w = number[2];
-      v = -1;
-      ContractLast<16>(basis.Forms[2][w], moments.data(), plane);
-    }
-    if (number[1] != v)
-    {
-      v = number[1];
-      ContractLast<4>(basis.Forms[1][v], plane, line);
-    }
-    double sum;
-    ContractLast<1>(basis.Forms[0][number[0]], line, &sum);
-    sums[active.First[n]] += sum;
-  }
-}
 }
 
 //------------------------------------------------------------------------------
@@ -221,62 +195,5 @@ double ScatteredSystem::SquaredError(int component) const
     squares += this->WeightOf(this->Sorted[at]) * r * r;
   }
   return squares;
-}
-
-//------------------------------------------------------------------------------
-// The negative gradient of the cell's fairness, as sums against its Bernstein polynomials.
-void ScatteredSystem::AddFairness(Index cell, int component, Moments64& moments) const
-{
-  if (this->Fairness[cell] == 0.0f)
-  {
-    return;
-  }
-  const double* bezier = &this->Bezier[64 * (cell * this->Samples.Components + component)];
-  VisitSecondDerivatives(
-    [&](const std::array<BernsteinForm, 3>& d)
-    {
-      double plane[16], line[4], value;
-      ContractLast<16>(d[2], bezier, plane);
-      ContractLast<4>(d[1], plane, line);
-      ContractLast<1>(d[0], line, &value);
-      AddProduct(-this->Fairness[cell] * value, d[0], d[1], d[2], moments);
-    });
-}
-
-//------------------------------------------------------------------------------
-std::vector<double> ScatteredSystem::Gradient(int component) const
-{
-  const BezierMesh& mesh = *this->Cells;
-  const Index functions = static_cast<Index>(this->Shared.PointOf.size());
-  const std::vector<double> ofFunctions = SumOfParts(mesh.Size(), functions, this->Run,
-    [&](Index first, Index last, std::vector<double>& sums)
-    {
-      CellBasis basis(mesh);
-      for (Index k = first; k < last; ++k)
-      {
-        const Index cell = this->Order[k];
-        if (this->IsEmpty(cell))
-        {
-          continue;
-        }
-        basis.SetCell(cell);
-        Moments64 moments{};
-        for (Index at = this->SampleBegin[cell]; at < this->SampleBegin[cell + 1]; ++at)
-        {
-          const Index sample = this->Sorted[at];
-          const auto b = basis.BernsteinAt(&this->Samples.Parameters[3 * sample]);
-          AddProduct(
-            this->Residuals[component][at] * this->WeightOf(sample), b[0], b[1], b[2], moments);
-        }
-        this->AddFairness(cell, component, moments);
-        AddFunctionSums(basis, moments, sums);
-      }
-    });
-  std::vector<double> gradient(this->Shared.Count(), 0.0);
-  for (Index i = 0; i < functions; ++i)
-  {
-    gradient[this->Shared.PointOf[i]] += ofFunctions[i];
-  }
-  return gradient;
 }
 }

@@ -16,6 +16,8 @@
 #include "GramMatrix.h"
 #include "RefinementMarks.h"
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <functional>
 #include <memory>
@@ -33,6 +35,11 @@ struct ScatteredSamples
 
   Index Count() const { return static_cast<Index>(this->Parameters.size() / 3); }
 };
+
+/// Functions with coefficients, one a column; and their values at all samples, one a row.
+using ColumnsOfPoints = Eigen::MatrixXd;
+using ColumnsOfSamples = Eigen::MatrixXd;
+constexpr int MostColumns = 3;
 
 /// The error of one component, in the samples' own unit.
 struct ScatteredError
@@ -80,6 +87,15 @@ public:
   /// The weighted sums of residual times function of each control point: the negative gradient.
   std::vector<double> Gradient(int component) const;
 
+  /// The residuals of a component at all samples, in their order.
+  std::vector<double> ResidualsOf(int component) const;
+
+  /// At all samples, in their order, the function with a coefficient for each control point; and
+  /// the transposed map, for each control point the weighted sum of values times its function.
+  /// Both of up to MostColumns columns at once.
+  ColumnsOfSamples ValuesOf(const ColumnsOfPoints& coefficients) const;
+  ColumnsOfPoints SumsOf(const ColumnsOfSamples& values) const;
+
   /// The normal equations, with squared norms of all functions kept for AddGains.
   GramMatrix Assemble();
 
@@ -101,6 +117,8 @@ private:
   }
   void AddCell(CellBasis& basis, LocalMatrix& matrix) const;
   void AddFairness(Index cell, int component, Moments64& moments) const;
+  template <typename Values, typename Add>
+  ColumnsOfPoints SumOverSamples(int columns, const Values& values, const Add& addTo) const;
   LocalMatrix AssembleBlock(Index firstCell, Index lastCell) const;
   void SumLines(CellBasis& basis, int component, std::vector<double>& sums) const;
 

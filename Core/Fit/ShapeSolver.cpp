@@ -17,12 +17,12 @@ namespace
 {
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-constexpr int MostProducts = 60;    // with the curvature, in one step
 constexpr double Forcing = 0.1;     // by which the residual of a step is to fall
 constexpr double Lowering = 0.1;    // of the barrier
 constexpr int MostHalvings = 12;    // of a step
 constexpr double Sufficient = 1e-4; // of what its slope promises must be won
 constexpr double Clearance = 0.2;   // of the least determinant of each cell must be left
+constexpr int MostFailures = 2;     // steps that lead nowhere
 constexpr int SlideEvery = 2;       // steps
 constexpr double Settled = 3e-3;    // the share that the last slide and its steps won
 
@@ -56,7 +56,7 @@ class Solver
 {
 public:
   Solver(TSpline& spline, ScatteredSystem& system, ShapeTarget& target,
-    const ShapeSolverOptions& options, const Execution& execution)
+    const ShapeSolverOptions& options, const Execution& execution, const DataErrors* data)
     : Spline(spline)
     , System(system)
     , Target(target)
@@ -64,6 +64,7 @@ public:
     , Net(NetOf(spline, system.Points()))
     , Energy(system.Mesh(), system.Points(), this->Net, execution)
     , Samples(ToSparse(system.Assemble()))
+    , Data(data)
     , Options(options)
   {
   }
@@ -73,12 +74,17 @@ public:
     const auto& weights = this->Target.Samples().Weights;
     const double unit = 0.5 * this->Options.Spacing * this->Options.Spacing *
                         std::accumulate(weights.begin(), weights.end(), 0.0);
-    const SparseMatrix cubes = this->Energy.CurvatureOfCubes();
+    this->Bound = this->Samples;
+    this->DataSlope = ShapeNet::Zero(this->Net.rows(), 3);
+    if (this->Data)
+    {
+      this->DataSlope = this->Data->Slope();
+      this->Bound += ToSparse(this->Data->Bound());
+    }
     for (double barrier = this->Options.FirstBarrier; barrier >= 0.99 * this->Options.LastBarrier;
          barrier *= Lowering)
     {
       this->Barrier = unit * barrier;
-      this->Factors.compute(this->Samples + this->Barrier * cubes);
       this->Minimise();
     }
   }
@@ -88,8 +94,9 @@ private:
   {
     double slid = std::numeric_limits<double>::max(); // the value when it slid last
     double shortest = 0.0;                            // step since then
+    int failures = 0;                                 // one after the other
     this->Slide();
-    for (int step = 0; step < this->Options.MostSteps; ++step)
+    for (int step = 0; step < this->Options.MostSteps && failures < MostFailures; ++step)
     {
       this->Run.Check(0.0);
       this->Energy.CountFinely(this->Net);
@@ -104,7 +111,7 @@ private:
       {
         this->Slide();
       }
-      const double now = this->SamplesAt(this->Net) + this->Barrier * here.Energy;
+      const double now = this->ValueOf(here);
       if (!folds && step % SlideEvery == 0)
       {
         if (shortest == 1.0 && now > (1.0 - Settled) * slid)
@@ -114,7 +121,9 @@ private:
         slid = now;
         shortest = 1.0;
       }
-      shortest = std::min(shortest, this->Step(now, here.Least));
+      const double length = this->Step(now, here.Least);
+      shortest = std::min(shortest, length);
+      failures = length > 0.0 || folds ? 0 : failures + 1;
     }
     this->Slide();
   }
@@ -149,6 +158,12 @@ private:
     }
   }
 
+  // Of all that is minimised, where the shape is.
+  double ValueOf(const FoldEnergy::Evaluation& here) const
+  {
+    return this->SamplesAt(this->Net) + this->DataValue + this->Barrier * here.Energy;
+  }
+
   double SamplesAt(const ShapeNet& net) const
   {
     const ShapeNet product = this->Samples * net;
@@ -159,19 +174,22 @@ private:
   // cell comes too near to folding; the share of the way that was gone.
   double Step(double now, const std::vector<double>& least)
   {
-    const ShapeNet slope = this->Samples * this->Net - this->Wanted +
+    const ShapeNet slope = this->Samples * this->Net - this->Wanted + this->DataSlope +
                            this->Barrier * this->Energy.Differentiate(this->Net);
-    ShapeNet step = ShapeNet::Zero(slope.rows(), 3), residual = -slope;
+    this->Factors.compute(this->Bound + this->Barrier * this->Energy.Stiffness(!this->Data));
+    ShapeNet step = ShapeNet::Zero(slope.rows(), 3), residual = -slope, dataStep = step;
     ShapeNet conditioned = this->Factors.solve(residual), direction = conditioned;
     double norm = Dot(residual, conditioned);
     const double goal = Forcing * Forcing * norm;
-    for (int product = 0; product < MostProducts && norm > goal; ++product)
+    for (int product = 0; product < this->Options.MostProducts && norm > goal; ++product)
     {
       this->Run.Check(0.0);
+      const ShapeNet ofData = this->CurveData(direction);
       const ShapeNet curved =
-        this->Samples * direction + this->Barrier * this->Energy.Curve(direction);
+        this->Samples * direction + ofData + this->Barrier * this->Energy.Curve(direction);
       const double rate = norm / Dot(direction, curved);
       step += rate * direction;
+      dataStep += rate * ofData;
       residual -= rate * curved;
       conditioned = this->Factors.solve(residual);
       const double next = Dot(residual, conditioned);
@@ -186,14 +204,27 @@ private:
       const FoldEnergy::Evaluation found = this->Energy.Evaluate(there);
       const bool isClear = std::equal(least.begin(), least.end(), found.Least.begin(),
         [](double before, double after) { return before <= 0.0 || after >= Clearance * before; });
-      const double value = this->SamplesAt(there) + this->Barrier * found.Energy;
-      if (isClear && value < now + Sufficient * length * promised && this->StaysClear(there, least))
+      const double data = this->DataValue + length * Dot(this->DataSlope, step) +
+                          0.5 * length * length * Dot(dataStep, step);
+      const double value = this->SamplesAt(there) + data + this->Barrier * found.Energy;
+      if (isClear && value < now + Sufficient * length * promised)
       {
-        this->Net = there;
-        return length;
+        if (this->StaysClear(there, least))
+        {
+          this->Net = there;
+          this->DataValue = data;
+          this->DataSlope += length * dataStep;
+          return length;
+        }
+        now = this->ValueOf(this->Energy.Evaluate(this->Net)); // at more points
       }
     }
     return 0.0;
+  }
+
+  ShapeNet CurveData(const ShapeNet& direction) const
+  {
+    return this->Data ? this->Data->Curve(direction) : ShapeNet::Zero(direction.rows(), 3);
   }
 
   // Whether cells that do not fold do not there either, also where only more points show it. These
@@ -213,9 +244,13 @@ private:
   ShapeNet Net;
   FoldEnergy Energy;
   SparseMatrix Samples;
+  SparseMatrix Bound; // of the curvature of samples and data
   ShapeNet Wanted;
   double Constant = 0.0;
-  double Barrier = 0.0; // times the weight of all samples
+  const DataErrors* Data;
+  ShapeNet DataSlope;
+  double DataValue = 0.0; // less that of the shape that it started from
+  double Barrier = 0.0;   // times the weight of all samples
   const ShapeSolverOptions& Options;
   Eigen::SimplicialLLT<SparseMatrix> Factors;
 };
@@ -223,8 +258,8 @@ private:
 
 //------------------------------------------------------------------------------
 void SolveShape(TSpline& spline, ScatteredSystem& system, ShapeTarget& target,
-  const ShapeSolverOptions& options, const Execution& execution)
+  const ShapeSolverOptions& options, const Execution& execution, const DataErrors* data)
 {
-  Solver(spline, system, target, options, execution).Solve();
+  Solver(spline, system, target, options, execution, data).Solve();
 }
 }

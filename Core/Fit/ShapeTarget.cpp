@@ -72,7 +72,6 @@ ShapeTarget::ShapeTarget(const BlockComplex& blocks, const ShapeSamples& shape, 
     }
   }
   this->WeighSurface(SurfaceWeight);
-  this->Own = n;
   this->Distances.Rms = this->Distances.Maximum = std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -122,26 +121,7 @@ void ShapeTarget::WeighSurface(float weight)
 //------------------------------------------------------------------------------
 void ShapeTarget::Pull(const std::vector<double>& parameters, const std::vector<double>& places)
 {
-  this->Add(parameters, places, std::vector<float>(parameters.size() / 3, SurfaceWeight));
-  for (; this->Own < this->Targets.Count(); ++this->Own)
-  {
-    this->OnSurface.push_back(this->Own);
-  }
-}
-
-//------------------------------------------------------------------------------
-void ShapeTarget::Follow(const std::vector<double>& parameters, const std::vector<double>& places,
-  const std::vector<float>& weights)
-{
-  this->WeighSurface(HeldWeight);
-  this->Add(parameters, places, weights);
-}
-
-//------------------------------------------------------------------------------
-void ShapeTarget::Add(const std::vector<double>& parameters, const std::vector<double>& places,
-  const std::vector<float>& weights)
-{
-  const Index before = this->Targets.Count(), more = static_cast<Index>(weights.size());
+  const Index before = this->Targets.Count(), more = static_cast<Index>(places.size() / 3);
   std::vector<double> values;
   for (int a = 0; a < 3; ++a)
   {
@@ -155,23 +135,23 @@ void ShapeTarget::Add(const std::vector<double>& parameters, const std::vector<d
   this->Targets.Values = std::move(values);
   std::vector<double>& all = this->Targets.Parameters;
   all.insert(all.end(), parameters.begin(), parameters.end());
-  this->Targets.Weights.insert(this->Targets.Weights.end(), weights.begin(), weights.end());
+  this->Targets.Weights.resize(before + more, SurfaceWeight);
   this->SheetOf.resize(before + more, nullptr);
+  for (Index i = before; i < before + more; ++i)
+  {
+    this->OnSurface.push_back(i);
+  }
+}
+
+//------------------------------------------------------------------------------
+void ShapeTarget::Hold()
+{
+  this->WeighSurface(HeldWeight);
 }
 
 //------------------------------------------------------------------------------
 void ShapeTarget::Release()
 {
-  const Index before = this->Targets.Count();
-  for (int a = 0; a < 3; ++a)
-  {
-    const auto begin = this->Targets.Values.begin() + a * before;
-    std::copy(begin, begin + this->Own, this->Targets.Values.begin() + a * this->Own);
-  }
-  this->Targets.Values.resize(3 * this->Own);
-  this->Targets.Parameters.resize(3 * this->Own);
-  this->Targets.Weights.resize(this->Own);
-  this->SheetOf.resize(this->Own);
   this->WeighSurface(SurfaceWeight);
 }
 

@@ -40,10 +40,9 @@ public:
 
   /// Adds places that the surface is to reach at parameters on it.
   void Pull(const std::vector<double>& parameters, const std::vector<double>& places);
-  /// Adds places that the shape is wanted at, with weights. Until Release takes them back a sample
-  /// inside counts one and those of the surface 1600, so that it stays where it is.
-  void Follow(const std::vector<double>& parameters, const std::vector<double>& places,
-    const std::vector<float>& weights);
+  /// Until Release samples of the surface count 1600 times those inside, so that it stays where it
+  /// is.
+  void Hold();
   void Release();
 
   /// How far the spline was from the surface at the samples on it when they slid last; without a
@@ -61,8 +60,6 @@ private:
   using SheetKey = std::pair<int, int>;
 
   std::vector<SheetKey> SheetsAt(const BlockComplex& blocks, const double* parameter) const;
-  void Add(const std::vector<double>& parameters, const std::vector<double>& places,
-    const std::vector<float>& weights);
   void WeighSurface(float weight);
   Eigen::Vector3d NearestTarget(const Sheet& sheet, const Eigen::Vector3d& place) const;
 
@@ -70,7 +67,6 @@ private:
   std::map<SheetKey, Sheet> Sheets;
   std::vector<const Sheet*> SheetOf; // of each sample; null: inside, or where several sheets meet
   std::vector<Index> OnSurface;      // samples
-  Index Own = 0;                     // samples without those to follow
   ScatteredSamples Targets;
   ScatteredError Distances;
 };
