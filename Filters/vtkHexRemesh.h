@@ -10,9 +10,9 @@
  * treated again until its cells are as long as wanted. Nodes of the surface slide on it, held by
  * edges that are sharp and by curves where three surfaces meet, and faces of cells are drawn to
  * where the surface is: so that they hold its volume, nodes may leave it by half a voxel. Layers
- * along the surface become as deep as their cells are long, where the domain has them thinner, since
- * three blocks meet at better angles then; CellsPerBlock leaves them as they are. With block meshes
- * as fourth input only these are resampled and, where that folds cells, untangled.
+ * along the surface become as deep as their cells are long, where the domain has them thinner,
+ * since three blocks meet at better angles then; CellsPerBlock leaves them as they are. With block
+ * meshes as fourth input only these are resampled and, where that folds cells, untangled.
  *
  * @par Input
  * Port 0: vtkImageData, whose point arrays are sampled at the nodes (trilinear; labels, frames and
@@ -29,9 +29,10 @@
  * where a cell is inverted.
  *
  * Port 1: vtkUnstructuredGrid with the same hexahedra over common points, with Segment, Block,
- * ScaledJacobian and the arrays of the image, ready for a solver; ElementBlockIds (int32) is Segment
- * again, by which VTK's Exodus writer makes an element block of each. Field data: InvertedCells
- * (vtkIdType x 2), as interpolated and in the end; ScaledJacobian (double x 2), its least and mean.
+ * ScaledJacobian and the arrays of the image, ready for a solver; ElementBlockIds (int32) is
+ * Segment again, by which VTK's Exodus writer makes an element block of each. Field data:
+ * InvertedCells (vtkIdType x 2), as interpolated and in the end; ScaledJacobian (double x 2), its
+ * least and mean.
  *
  * @par Cost
  * 20 to 60 microseconds of processor time for a cell where the domain fits its segment; up to 2 ms

@@ -185,14 +185,14 @@ public:
   ///@{
   /**
    * In automatic mode, how much better one more corner must make the domain. Its value is the mean
-   * scaled Jacobian of some 2000 hexahedra in its blocks, made on a coarse copy of the surface, over
-   * 1 + d / h: d is the root mean square distance of the surface from the hexahedra or, where that is
-   * more, of these from the surface, and h the edge of a cube with 1 / 2000 of the volume. Cubes that
-   * fill a solid only roughly must be better by 0.035. Chains of cubes have the hexahedra of one cube:
-   * for them it is a third of the alignment, the area-weighted mean of the cosine between normals and
-   * the directions of the patches, which also decides between cubes whose values differ by less than
-   * 0.035. 0: as many cubes as are best; 1: one cube wherever one will do. Valid range [0, 1]. Default
-   * is 0.0005.
+   * scaled Jacobian of some 2000 hexahedra in its blocks, made on a coarse copy of the surface,
+   * over 1 + d / h: d is the root mean square distance of the surface from the hexahedra or, where
+   * that is more, of these from the surface, and h the edge of a cube with 1 / 2000 of the volume.
+   * Cubes that fill a solid only roughly must be better by 0.035. Chains of cubes have the
+   * hexahedra of one cube: for them it is a third of the alignment, the area-weighted mean of the
+   * cosine between normals and the directions of the patches, which also decides between cubes
+   * whose values differ by less than 0.035. 0: as many cubes as are best; 1: one cube wherever one
+   * will do. Valid range [0, 1]. Default is 0.0005.
    */
   vtkSetClampMacro(CornerCost, double, 0.0, 1.0);
   vtkGetMacro(CornerCost, double);
