@@ -106,18 +106,19 @@ double BezierPiece::LeastDistance(const Vector& point) const
 }
 
 //------------------------------------------------------------------------------
-// Weights are left out: they are close to each other within a piece.
+// Along the edges of the piece. Weights are left out: they are close to each other within a piece.
 int BezierPiece::LongestDirection() const
 {
   const auto& [x, y, z, weight] = this->Form;
   std::array<double, 3> longest{};
   for (int a = 0; a < 3; ++a)
   {
-    for (int n = 0; n < 64; ++n)
+    const int stride = Stride[a], s = 3 * Stride[(a + 1) % 3], t = 3 * Stride[(a + 2) % 3];
+    for (const int edge : { 0, s, t, s + t })
     {
-      if (n / Stride[a] % 4 != 3)
+      for (int n = edge; n < edge + 3 * stride; n += stride)
       {
-        const int next = n + Stride[a];
+        const int next = n + stride;
         const Vector step = { x[next] - x[n], y[next] - y[n], z[next] - z[n] };
         longest[a] = std::max(longest[a], Dot(step, step));
       }
