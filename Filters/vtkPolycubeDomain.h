@@ -44,9 +44,9 @@
  *   bounds; PatchSide (int8): 0 at the low end of the block, 1 at the high end; Segment (int32);
  *   BoundaryLabels (int32 x 2), that segment and the one on the other side. A patch that two
  *   segments share has one number, and opposite sides.
- * - points: CornerId (int32), -1 where no corner is; with RelaxBorders Parameter (double x 3), where
- *   the point lies on the boundary of the polycube, in DomainCoordinates: one to one on each patch,
- *   with little stretch; zero on surfaces whose borders were not moved.
+ * - points: CornerId (int32), -1 where no corner is; with RelaxBorders Parameter (double x 3), its
+ *   place on the boundary of the polycube, in DomainCoordinates: one to one on each patch, with
+ *   little stretch; zero on surfaces whose borders were not moved.
  *
  * Port 1, polycube: vtkUnstructuredGrid with a hexahedron for each block.
  * - points: DomainCoordinates (int32 x 3), where the corner lies in the integer polycube (an inner
@@ -209,10 +209,10 @@ public:
 
   ///@{
   /**
-   * Whether borders go to where the map of the surface onto the cubes stretches it least, also where
-   * patches then follow the normals less; corners of the cubes' surface stay, and so do sharp edges.
-   * Block meshes start from this map (Parameter). Borders of contacts and of the outer surface of a
-   * shell are not moved. Default is off.
+   * Whether borders go to where the map of the surface onto the cubes stretches it least, also
+   * where patches then follow the normals less; corners of the cubes' surface stay, and so do sharp
+   * edges. Block meshes start from this map (Parameter). Borders of contacts and of the outer
+   * surface of a shell are not moved. Default is off.
    */
   vtkSetMacro(RelaxBorders, bool);
   vtkGetMacro(RelaxBorders, bool);

@@ -288,7 +288,7 @@ def whole_or_none(number):
 
 
 def number_or_none(number):
-    return None if math.isnan(number) else number
+    return number if math.isfinite(number) else None
 
 
 def print_table(report, name=""):
@@ -382,7 +382,7 @@ def main():
         "tmesh_cells": count_cells(model),
         "bezier_cells": output_of(bezier).GetNumberOfCells(),
         "rms_density_percent": number_or_none(measured["RMSPercent"]),
-        "psnr_decibels": measured["PSNRDecibels"],
+        "psnr_decibels": number_or_none(measured["PSNRDecibels"]),
         "max_error": measured["MaximumErrorPercent"] / 100.0,
         "round_trip_rms_density_percent": measured["RoundTripRMSPercent"],
         "found_percent": measured["FoundPercent"],

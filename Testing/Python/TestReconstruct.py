@@ -24,7 +24,8 @@ KEYS = ["voxels", "control_points", "numbers_stored", "tmesh_cells", "bezier_cel
         "found_percent", "segments", "domains", "fitted_over", "blocks", "corners", "cubes",
         "boundary_hausdorff_voxels", "min_scaled_jacobian", "inverted_cells",
         "mean_scaled_jacobian", "inverted_cells_before", "inverted_cells_after", "hexahedra",
-        "seconds", "seconds_of_fit", "peak_memory_bytes", "model_bytes", "raw_bytes", "zlib_bytes", "label_bytes", "threads", "version"]
+        "seconds", "seconds_of_fit", "peak_memory_bytes", "model_bytes", "raw_bytes", "zlib_bytes",
+        "label_bytes", "threads", "version"]
 
 
 def run(*arguments):
