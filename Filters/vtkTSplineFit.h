@@ -18,6 +18,8 @@
  * moves, its surface held, to where the errors of the attributes want it, and these are fitted
  * again, in turns and as long as that lowers the error. Blocks of one group are joined C2;
  * across other common faces the control points are the same on both sides, so there is no gap.
+ * Between two segments that holds for their places; attributes are each segment's own, fitted to
+ * the voxels with parameters in its blocks.
  *
  * @par Input
  * Port 0: a vtkImageData with two or more points along each axis. The point array chosen with

@@ -67,11 +67,11 @@ public:
     , Options(options)
     , Run(execution)
     , Layout(blocks, KnotDepth(blocks, Shape, options.Spacing))
-    , Marks([this](const TSpline& spline) { return this->Layout.Share(spline).Count(); })
+    , Marks([this](const TSpline& spline) { return this->CountPoints(spline); })
   {
     this->Result.Spline = this->Layout.MakeCoarsest(options.CoarsestCells, voxels.Components);
     this->Rule = MakeBlockRule(this->Layout, this->Result.Spline);
-    this->CoarsestSize = this->Layout.Share(this->Result.Spline).Count();
+    this->CoarsestSize = this->CountPoints(this->Result.Spline);
     if (this->CoarsestSize > options.MaximumControlPoints)
     {
       throw std::invalid_argument("The limit is " + std::to_string(options.MaximumControlPoints) +
@@ -96,7 +96,7 @@ public:
     samples.Values = this->Voxels.Values;
     samples.Parameters = this->FindParameters(this->Result.Spline, this->Voxels.Parameters);
     this->FitAttributes(samples, target);
-    const SharedPoints shared = this->Layout.Share(this->Result.Spline);
+    const SharedPoints shared = this->Layout.Share(this->Result.Spline, Sharing::Attributes);
     this->Result.PointOf = shared.PointOf;
     this->Result.ControlPoints = shared.Count();
     this->Result.NumbersStored =
@@ -122,6 +122,11 @@ private:
   }
 
   void Lap(const char* topic) { this->Time.Lap(topic); }
+
+  Index CountPoints(const TSpline& spline) const
+  {
+    return this->Layout.Share(spline, Sharing::Attributes).Count();
+  }
 
   void FitShape(ShapeTarget& target)
   {
@@ -380,12 +385,12 @@ private:
   // it.
   std::vector<double> FindParameters(const TSpline& shape, const std::vector<double>& starts)
   {
-    const BezierMesh mesh(shape, this->Run);
-    FoundParameters found =
-      FindParametersOnShape(shape, mesh, this->Voxels.Places, starts, this->Run);
+    const FoundParameters found = FindParametersOnSegments(
+      shape, this->Layout, this->Voxels.Places, this->Voxels.Parameters, starts, this->Run);
     this->Result.VoxelsInside = found.Inside;
     this->Result.VoxelsNear = std::count_if(found.Distances.begin(), found.Distances.end(),
       [this](double distance) { return distance <= 0.5 * this->Options.Spacing; });
+    const BezierMesh mesh(shape, this->Run);
     auto [least, mean] = JacobianAt(shape, mesh, found.Parameters, this->Run);
     this->Result.ShapeCells = mesh.Size();
     this->Result.FoldedCells = this->Result.CertifiedCells = 0;
@@ -397,7 +402,7 @@ private:
     }
     this->Result.SmallestJacobian = least / mean;
     this->Lap("parameters");
-    return std::move(found.Parameters);
+    return found.Parameters;
   }
 
   const BlockComplex& Blocks;

@@ -7,7 +7,8 @@
  * on that of the samples, wherever on it, and no further, with a barrier against folds
  * (ShapeSolver.h); what comes after carries it along unchanged, so it lives on a coarser net,
  * nested in that of the attributes. Then every voxel takes the parameters at which this shape
- * passes through it, and the attributes are fitted there, as in FitGrid. Where the shape has a
+ * passes through it, and the attributes are fitted there, as in FitGrid. Of several segments each
+ * has attributes of its own, and its voxels their places in its own blocks. Where the shape has a
  * surface to slide on, it then follows the errors of the attributes, on its own net and with its
  * surface held (DataErrors.h); voxels take their parameters on it and the attributes are fitted
  * again, with the functions that they have, a few times and as long as the error falls.

@@ -130,12 +130,15 @@ public:
       this->Inner->Refine(spline, wanted);
       wanted = this->Layout->CrossedTraces(spline);
     } while (!wanted.empty());
-    const SharedPoints shared = this->Layout->Share(spline);
+    const SharedPoints whole = this->Layout->Share(spline, Sharing::Attributes),
+                       places = this->Layout->Share(spline, Sharing::Places);
     for (Index i = 0; i < spline.Size(); ++i)
     {
-      const Index first = shared.FirstOf[shared.PointOf[i]];
-      spline.Weights[i] = spline.Weights[first];
+      const Index first = whole.FirstOf[whole.PointOf[i]],
+                  place = places.FirstOf[places.PointOf[i]];
+      spline.Weights[i] = spline.Weights[place];
       std::copy_n(spline.ControlPoint(first), spline.Components, spline.ControlPoint(i));
+      std::copy_n(spline.ControlPoint(place), 3, spline.ControlPoint(i));
     }
   }
 
@@ -250,30 +253,40 @@ BlockSpline::Trace BlockSpline::TraceOf(
 }
 
 //------------------------------------------------------------------------------
+bool BlockSpline::IsShared(const BlockFace& face, Sharing what) const
+{
+  const Index other = this->Complex->Twin(face).Face.Block;
+  return what == Sharing::Places ||
+         (other >= 0 && this->Complex->Segments[face.Block] == this->Complex->Segments[other]);
+}
+
+//------------------------------------------------------------------------------
 template <typename Visit>
-void BlockSpline::VisitTraces(const TSpline& spline, const Visit& visit) const
+void BlockSpline::VisitTraces(const TSpline& spline, Sharing what, const Visit& visit) const
 {
   for (Index i = 0; i < spline.Size(); ++i)
   {
     const BlendingFunction& f = spline.Functions[i];
     const Index block = this->BlockOf(f);
-    for (int face = 0; face < 6; ++face)
+    for (int side = 0; side < 6; ++side)
     {
-      const Trace trace = this->TraceOf(f, block, face / 2, face % 2);
-      if (trace.Face >= 0)
+      const BlockFace face{ block, side / 2, side % 2 };
+      const Trace trace = this->TraceOf(f, block, face.Axis, face.Side);
+      if (trace.Face >= 0 && this->IsShared(face, what))
       {
-        visit(i, BlockFace{ block, face / 2, face % 2 }, trace);
+        visit(i, face, trace);
       }
     }
   }
 }
 
 //------------------------------------------------------------------------------
-SharedPoints BlockSpline::Share(const TSpline& spline) const
+SharedPoints BlockSpline::Share(const TSpline& spline, Sharing what) const
 {
   Forest functions(spline.Size());
   BlendingFunctionMap functionOf;
-  this->VisitTraces(spline, [&](Index i, const BlockFace&, const Trace& trace)
+  this->VisitTraces(spline, what,
+    [&](Index i, const BlockFace&, const Trace& trace)
     { functions.Join(i, functionOf.Insert(KeyOf(trace.Knots, trace.Face), i).first); });
   SharedPoints shared;
   shared.PointOf.resize(spline.Functions.size());
@@ -294,10 +307,11 @@ SharedPoints BlockSpline::Share(const TSpline& spline) const
 std::vector<RefinementMark> BlockSpline::CrossedTraces(const TSpline& spline) const
 {
   std::map<Index, TraceMesh> meshes;
-  this->VisitTraces(spline, [&](Index, const BlockFace&, const Trace& trace)
+  this->VisitTraces(spline, Sharing::Places,
+    [&](Index, const BlockFace&, const Trace& trace)
     { meshes.try_emplace(trace.Face, this->One).first->second.Insert(trace.Knots); });
   std::vector<RefinementMark> marks;
-  this->VisitTraces(spline,
+  this->VisitTraces(spline, Sharing::Places,
     [&](Index i, const BlockFace& face, const Trace& trace)
     {
       for (int d = 0; d < 2; ++d)
@@ -337,13 +351,13 @@ RefinementMark BlockSpline::ToMark(
 }
 
 //------------------------------------------------------------------------------
-std::vector<Index> BlockSpline::LinkSplits(const TSpline& spline) const
+std::vector<Index> BlockSpline::LinkSplits(const TSpline& spline, Sharing what) const
 {
   Forest splits(12 * spline.Size());
   BlendingFunctionMap functionOf;
   std::vector<BlockFace> faceOf; // of the first function of each trace
   std::vector<Index> firstOf;
-  this->VisitTraces(spline,
+  this->VisitTraces(spline, what,
     [&](Index i, const BlockFace& face, const Trace& trace)
     {
       // Traces are numbered; the first function of each and its face are kept under that number.
@@ -372,6 +386,17 @@ std::vector<Index> BlockSpline::LinkSplits(const TSpline& spline) const
     first[n] = splits.Root(static_cast<Index>(n));
   }
   return first;
+}
+
+//------------------------------------------------------------------------------
+std::vector<int> BlockSpline::SegmentsOf(const TSpline& spline) const
+{
+  std::vector<int> segments;
+  for (const BlendingFunction& f : spline.Functions)
+  {
+    segments.push_back(this->Complex->Segments[this->BlockOf(f)]);
+  }
+  return segments;
 }
 
 //------------------------------------------------------------------------------

@@ -8,7 +8,9 @@
  * do not touch each other. On a face only functions with a knot four times there are not zero, and
  * what they are there, their trace, is a function of the two knot vectors along the face. Functions
  * with one trace on the two sides of a glued face share one control point: then both sides agree on
- * the face exactly, and so do all blocks around an edge or a corner.
+ * the face exactly, and so do all blocks around an edge or a corner. Between two segments they
+ * share its place only, so that there is no gap, but attributes jump as the values of the voxels
+ * do.
  */
 #ifndef trivariate_BlockSpline_h
 #define trivariate_BlockSpline_h
@@ -29,6 +31,13 @@ struct SharedPoints
   Index Count() const { return static_cast<Index>(this->FirstOf.size()); }
 };
 
+/// What of a control point functions share across the faces of blocks.
+enum class Sharing
+{
+  Places,    ///< X, Y, Z, across all glued faces
+  Attributes ///< those too, across faces inside of a segment
+};
+
 class BlockSpline
 {
 public:
@@ -46,7 +55,7 @@ public:
   Index BlockOf(const BlendingFunction& f) const;
 
   /// Points are numbered by their first functions. O(n).
-  SharedPoints Share(const TSpline& spline) const;
+  SharedPoints Share(const TSpline& spline, Sharing what) const;
 
   /// A way to split a function: in the middle of one of the four spans of its knots in a direction.
   static Index SplitNumber(Index function, int direction, int span)
@@ -55,8 +64,11 @@ public:
   }
 
   /// Splits along a common face are made on both sides: of each split (SplitNumber) the first of
-  /// those that are made together.
-  std::vector<Index> LinkSplits(const TSpline& spline) const;
+  /// those that are made together; or, of Attributes, that add to the same unknown.
+  std::vector<Index> LinkSplits(const TSpline& spline, Sharing what) const;
+
+  /// The segment of the block of each function.
+  std::vector<int> SegmentsOf(const TSpline& spline) const;
 
   /// Splits that functions need because knots of other traces on the same face cross theirs. As
   /// long as there are some, the traces on the two sides need not be the same. O(n 2^Depth).
@@ -74,8 +86,9 @@ private:
   std::pair<int, bool> AlongTrace(const BlockFace& face, Index traceFace, int d) const;
   RefinementMark ToMark(
     Index function, const BlockFace& face, Index traceFace, int d, std::int32_t knot) const;
+  bool IsShared(const BlockFace& face, Sharing what) const;
   template <typename Visit>
-  void VisitTraces(const TSpline& spline, const Visit& visit) const;
+  void VisitTraces(const TSpline& spline, Sharing what, const Visit& visit) const;
 
   const BlockComplex* Complex;
   int Levels;
@@ -86,7 +99,7 @@ private:
 
 /**
  * The rule of MakeKnotInsertionRule, with further splits until the traces on the two sides of every
- * glued face are the same. Weights and control points of functions that share a point then agree to
+ * glued face are the same. Weights and what functions share of control points then agree to
  * rounding, and are made equal. `layout` must outlive the rule.
  */
 std::unique_ptr<RefinementRule> MakeBlockRule(const BlockSpline& layout, const TSpline& coarsest);

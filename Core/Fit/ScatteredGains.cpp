@@ -233,41 +233,47 @@ void ScatteredSystem::AddGains(int component, double factor, std::vector<SplitGa
     norm2[this->Shared.PointOf[i]] += this->SquaredNorms[i];
     residual[this->Shared.PointOf[i]] += sums[SumsOfFunction * i];
   }
-  // Of each set of splits that are made together: sums over its functions, kept with the first.
+  // Of each set of splits with one unknown: sums over its functions, kept with the first.
   struct Together
   {
     double Norm2 = 0.0, Residual = 0.0;
   };
   const auto splitOf = [&](Index i, int a, int s) -> const UnivariateSplit&
   { return splits[a][mesh.UnivariateOf(i, a)][s]; };
-  std::vector<Together> together(this->LinkedSplits.size());
+  std::vector<Together> together(this->SplitsUnknown.size());
   for (Index n = 0; n < static_cast<Index>(together.size()); ++n)
   {
-    Together& sum = together[this->LinkedSplits[n]];
+    Together& sum = together[this->SplitsUnknown[n]];
     sum.Norm2 += this->SquaredNorms[n / 12];
     sum.Residual += sums[SumsOfFunction * (n / 12) + 1 + n % 12];
   }
+  // What each set brings is that of the splits that it is made with, whose first comes before it.
   const bool isFirst = gains.empty();
   std::size_t next = 0;
+  std::vector<std::size_t> gainOf(together.size());
   for (Index n = 0; n < static_cast<Index>(together.size()); ++n)
   {
     const Index i = n / 12;
     const int a = static_cast<int>(n % 12 / 4);
     const UnivariateSplit& split = splitOf(i, a, static_cast<int>(n % 4));
-    if (split.Knot < 0 || this->LinkedSplits[n] != n)
+    if (split.Knot < 0 || this->SplitsUnknown[n] != n)
     {
       continue;
     }
-    if (isFirst)
+    if (this->SplitsMade[n] == n)
     {
-      gains.push_back({ i, a, split.Knot, 0.0 });
+      gainOf[n] = next++;
+      if (isFirst)
+      {
+        gains.push_back({ i, a, split.Knot, 0.0 });
+      }
     }
     const Index point = this->Shared.PointOf[i];
     const double inner = split.WithParent * together[n].Norm2;
     const double share = inner / norm2[point];
     const double rest = split.WithItself * together[n].Norm2 - share * inner;
     const double explained = together[n].Residual - share * residual[point];
-    gains[next++].SquaredError +=
+    gains[gainOf[this->SplitsMade[n]]].SquaredError +=
       this->SquaredNorms[i] > LeastNorm ? factor * explained * explained / rest : 0.0;
   }
 }

@@ -72,8 +72,9 @@ void ScatteredSystem::CheckSamples() const
 void ScatteredSystem::Update(const TSpline& spline)
 {
   this->Cells = std::make_unique<BezierMesh>(spline, this->Run);
-  this->Shared = this->Layout.Share(spline);
-  this->LinkedSplits = this->Layout.LinkSplits(spline);
+  this->Shared = this->Layout.Share(spline, this->Shares());
+  this->SplitsMade = this->Layout.LinkSplits(spline, Sharing::Places);
+  this->SplitsUnknown = this->Layout.LinkSplits(spline, this->Shares());
   const BezierMesh& mesh = *this->Cells;
 
   // Functions are numbered along a space-filling curve, cells by the first of theirs.

@@ -52,8 +52,9 @@ class ScatteredSystem
 {
 public:
   /**
-   * The samples are fitted with the components firstComponent, ... of the spline; they and the
-   * layout must outlive this object. Throws std::invalid_argument, naming the sample, for a
+   * The samples are fitted with the components firstComponent, ... of the spline: 0 for places, 3
+   * for attributes, which tells what functions share. Samples and layout must outlive this object.
+   * Throws std::invalid_argument, naming the sample, for a
    * parameter outside of all blocks or a number that is not finite.
    */
   ScatteredSystem(const ScatteredSamples& samples, int firstComponent, const BlockSpline& layout,
@@ -62,6 +63,10 @@ public:
   /// The spline's functions have changed.
   void Update(const TSpline& spline);
 
+  Sharing Shares() const
+  {
+    return this->FirstComponent < 3 ? Sharing::Places : Sharing::Attributes;
+  }
   const SharedPoints& Points() const { return this->Shared; }
   const BezierMesh& Mesh() const { return *this->Cells; }
 
@@ -129,9 +134,10 @@ private:
   std::vector<double> Ranges, Means;
   std::unique_ptr<BezierMesh> Cells;
   SharedPoints Shared;
-  std::vector<Index> LinkedSplits; // see BlockSpline::LinkSplits
-  std::vector<Index> Order;        // cells along a space-filling curve
-  std::vector<Index> SampleBegin;  // of each cell in Sorted
+  std::vector<Index> SplitsMade;    // together, see BlockSpline::LinkSplits
+  std::vector<Index> SplitsUnknown; // what they add to
+  std::vector<Index> Order;         // cells along a space-filling curve
+  std::vector<Index> SampleBegin;   // of each cell in Sorted
   std::vector<std::int32_t> Sorted;
   std::vector<std::vector<double>> Residuals; // of each component, in the order of Sorted
   std::vector<double> SquaredNorms;           // of each function over the samples

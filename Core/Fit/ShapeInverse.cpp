@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace trivariate
 {
@@ -79,5 +80,58 @@ FoundParameters FindParametersOnShape(const TSpline& spline, const BezierMesh& m
     result.Distances.push_back(std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]));
   }
   return result;
+}
+
+//------------------------------------------------------------------------------
+FoundParameters FindParametersOnSegments(const TSpline& spline, const BlockSpline& layout,
+  const std::vector<double>& places, const std::vector<double>& parameters,
+  const std::vector<double>& starts, const Execution& execution)
+{
+  const BlockComplex& blocks = layout.Blocks();
+  const std::set<int> segments(blocks.Segments.begin(), blocks.Segments.end());
+  if (segments.size() == 1 || parameters.empty())
+  {
+    return FindParametersOnShape(spline, BezierMesh(spline, execution), places, starts, execution);
+  }
+  const std::vector<int> segmentOf = layout.SegmentsOf(spline);
+  const auto count = static_cast<Index>(places.size() / 3);
+  FoundParameters all;
+  all.Parameters.resize(places.size());
+  for (const int segment : segments)
+  {
+    std::vector<Index> own;
+    std::vector<double> ownPlaces, ownStarts;
+    for (Index i = 0; i < count; ++i)
+    {
+      const double* p = &parameters[3 * i];
+      if (blocks.Segments[blocks.BlockAt({ p[0], p[1], p[2] })] == segment)
+      {
+        own.push_back(i);
+        ownPlaces.insert(ownPlaces.end(), &places[3 * i], &places[3 * i] + 3);
+        if (!starts.empty())
+        {
+          ownStarts.insert(ownStarts.end(), &starts[3 * i], &starts[3 * i] + 3);
+        }
+      }
+    }
+    std::vector<char> isOther(segmentOf.size());
+    std::transform(segmentOf.begin(), segmentOf.end(), isOther.begin(),
+      [segment](int other) { return static_cast<char>(other != segment); });
+    TSpline part = spline;
+    RemoveFunctions(part, isOther);
+    const FoundParameters found =
+      FindParametersOnShape(part, BezierMesh(part, execution), ownPlaces, ownStarts, execution);
+    for (std::size_t i = 0; i < own.size(); ++i)
+    {
+      std::copy_n(&found.Parameters[3 * i], 3, &all.Parameters[3 * own[i]]);
+    }
+    for (const Index i : found.Outside)
+    {
+      all.Outside.push_back(own[i]);
+    }
+    all.Inside += found.Inside;
+    all.Distances.insert(all.Distances.end(), found.Distances.begin(), found.Distances.end());
+  }
+  return all;
 }
 }

@@ -4,6 +4,7 @@
 #ifndef trivariate_ShapeInverse_h
 #define trivariate_ShapeInverse_h
 
+#include "BlockSpline.h"
 #include "Execution.h"
 #include "TSpline/BezierMesh.h"
 
@@ -24,6 +25,12 @@ struct FoundParameters
 /// or empty; each is looked for from there first.
 FoundParameters FindParametersOnShape(const TSpline& spline, const BezierMesh& mesh,
   const std::vector<double>& places, const std::vector<double>& starts, const Execution& execution);
+
+/// The same with each place in the blocks of its own segment, in one of which its parameter of
+/// `parameters` is; where these are empty, in any block. Outside and Distances go by segments.
+FoundParameters FindParametersOnSegments(const TSpline& spline, const BlockSpline& layout,
+  const std::vector<double>& places, const std::vector<double>& parameters,
+  const std::vector<double>& starts, const Execution& execution);
 }
 
 #endif

@@ -48,6 +48,27 @@ inline BlockComplex LayeredCubeComplex(int segment = 0)
     std::vector<LatticePoint>(7, LatticePoint{ 0, 0, 0 }));
 }
 
+/// The same with segment 0 in the core and segment 1 in the layers.
+inline BlockComplex NestedCubeComplex()
+{
+  BlockComplex blocks = LayeredCubeComplex();
+  std::fill(blocks.Segments.begin() + 1, blocks.Segments.end(), 1);
+  return blocks;
+}
+
+/// The point (s, t) of a face in parameter space.
+inline std::array<double, 3> PointOn(
+  const BlockComplex& blocks, const BlockFace& face, const std::array<double, 2>& st)
+{
+  const LatticePoint& o = blocks.Origins[face.Block];
+  const auto axes = TangentialAxes(face.Axis);
+  std::array<double, 3> x;
+  x[face.Axis] = o[face.Axis] + face.Side;
+  x[axes[0]] = o[axes[0]] + st[0];
+  x[axes[1]] = o[axes[1]] + st[1];
+  return x;
+}
+
 /// The hexahedron in its 24 turns: the same corners in the order of other right-handed axes.
 inline std::vector<std::array<Index, 8>> TurnsOf(const std::array<Index, 8>& block)
 {

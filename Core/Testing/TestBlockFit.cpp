@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BallBlocks.h"
+#include "RandomRefinement.h"
 #include "ThreadedExecution.h"
 
 #include <gtest/gtest.h>
@@ -103,6 +104,48 @@ TEST(BlockFit, CoversVoxelsOutsideOfTheMeshes)
   const BlockFitResult fit =
     FitBlocks(ball.Map.Blocks, ball.Voxels, nodes, Options(600, 0.1), ThreadedExecution(2));
   EXPECT_LT(4 * (ball.Voxels.Count() - fit.VoxelsInside), 3 * outside);
+}
+
+// The core is another segment than the layers, with a density of its own: each side of the face
+// between them has what its voxels have, and their places there are the same to rounding.
+TEST(BlockFit, JumpsBetweenSegmentsWithoutAGap)
+{
+  BallPhantom ball(30);
+  const auto fit = [&ball]()
+  {
+    return FitBlocks(
+      ball.Map.Blocks, ball.Voxels, ball.Map.Nodes(12), Options(700, 0.1), ThreadedExecution(2));
+  };
+  for (Index i = 0; i < ball.Voxels.Count(); ++i)
+  {
+    const double* p = &ball.Voxels.Parameters[3 * i];
+    const bool isCore = ball.Map.Blocks.BlockAt({ p[0], p[1], p[2] }) == 0;
+    const double* x = &ball.Voxels.Places[3 * i];
+    ball.Voxels.Values[i] = isCore ? 1.0 + 0.01 * x[0] : 0.2 - 0.01 * x[1];
+  }
+  const double blurred = fit().Rounds.back().Rms;
+  const BlockComplex nested = NestedCubeComplex();
+  ball.Map.Blocks.Segments = nested.Segments;
+  const BlockFitResult sharp = fit();
+  EXPECT_LT(sharp.Rounds.back().Rms, 1e-3);
+  EXPECT_GT(blurred, 20.0 * sharp.Rounds.back().Rms);
+  EXPECT_LE(sharp.ControlPoints, 700);
+  for (int f = 0; f < 6; ++f)
+  {
+    const BlockFace face{ 0, f / 2, f % 2 };
+    const FaceTwin& twin = nested.Twin(face);
+    for (const std::array<double, 2> st : { std::array<double, 2>{ 0.3, 0.6 }, { 0.0, 0.45 } })
+    {
+      const auto inside = HomogeneousValue(sharp.Spline, PointOn(nested, face, st));
+      const auto outside =
+        HomogeneousValue(sharp.Spline, PointOn(nested, twin.Face, twin.Map<double>(st, 1.0)));
+      for (int c = 0; c < 3; ++c)
+      {
+        EXPECT_NEAR(inside[c], outside[c], 1e-13);
+      }
+      EXPECT_GT(inside[3] - outside[3], 0.5);
+    }
+  }
 }
 
 TEST(BlockFit, NeedsNoMoreThanTheTolerance)

@@ -24,23 +24,27 @@ std::vector<NamedComplex> Shapes()
   return { { "cube", CubesComplex({ { 0, 0, 0 } }) },
     { "two cubes", CubesComplex({ { 0, 0, 0 }, { 1, 0, 0 } }) },
     { "L", CubesComplex({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }) },
-    { "layered cube", LayeredCubeComplex() }, { "three around an edge", ThreeAroundAnEdge() },
+    { "layered cube", LayeredCubeComplex() }, { "nested segments", NestedCubeComplex() },
+    { "three around an edge", ThreeAroundAnEdge() },
     { "ring", BlockComplex({ { 0, 0, 3, 3, 4, 4, 7, 7 } }, { 0 }, { 0 }, { { 0, 0, 0 } }) } };
 }
 
-// Control points at random, one for those that share it.
+// Control points at random, what is shared of them the same.
 void Scatter(const BlockSpline& layout, TSpline& spline, std::mt19937& random)
 {
-  const SharedPoints shared = layout.Share(spline);
-  std::vector<double> values(shared.Count() * spline.Components);
-  for (double& value : values)
+  for (const Sharing what : { Sharing::Attributes, Sharing::Places })
   {
-    value = Random(random, -1.0, 1.0);
-  }
-  for (Index i = 0; i < spline.Size(); ++i)
-  {
-    std::copy_n(
-      &values[shared.PointOf[i] * spline.Components], spline.Components, spline.ControlPoint(i));
+    const SharedPoints shared = layout.Share(spline, what);
+    const int components = what == Sharing::Places ? 3 : spline.Components;
+    std::vector<double> values(shared.Count() * components);
+    for (double& value : values)
+    {
+      value = Random(random, -1.0, 1.0);
+    }
+    for (Index i = 0; i < spline.Size(); ++i)
+    {
+      std::copy_n(&values[shared.PointOf[i] * components], components, spline.ControlPoint(i));
+    }
   }
 }
 
@@ -54,19 +58,8 @@ Point RandomPointIn(const BlockComplex& blocks, Index b, std::mt19937& random)
   return x;
 }
 
-// The point (s, t) of a face in parameter space.
-Point PointOn(const BlockComplex& blocks, const BlockFace& face, const std::array<double, 2>& st)
-{
-  const LatticePoint& o = blocks.Origins[face.Block];
-  const auto axes = TangentialAxes(face.Axis);
-  Point x;
-  x[face.Axis] = o[face.Axis] + face.Side;
-  x[axes[0]] = o[axes[0]] + st[0];
-  x[axes[1]] = o[axes[1]] + st[1];
-  return x;
-}
-
-// The largest difference between the two sides of all glued faces, in numerators and denominator.
+// The largest difference between the two sides of all glued faces, in numerators and denominator;
+// of attributes inside of segments.
 double LargestGap(const BlockComplex& blocks, const TSpline& spline, std::mt19937& random)
 {
   double gap = 0.0;
@@ -83,9 +76,11 @@ double LargestGap(const BlockComplex& blocks, const TSpline& spline, std::mt1993
         const auto own = HomogeneousValue(spline, PointOn(blocks, face, st));
         const auto other =
           HomogeneousValue(spline, PointOn(blocks, twin.Face, twin.Map<double>(st, 1.0)));
+        const bool isInside = blocks.Segments[b] == blocks.Segments[twin.Face.Block];
         for (std::size_t c = 0; c < own.size(); ++c)
         {
-          gap = std::max(gap, std::abs(own[c] - other[c]));
+          const bool isShared = isInside || c < 3 || c + 1 == own.size();
+          gap = isShared ? std::max(gap, std::abs(own[c] - other[c])) : gap;
         }
       }
     }
@@ -96,16 +91,19 @@ double LargestGap(const BlockComplex& blocks, const TSpline& spline, std::mt1993
 TEST(BlockSpline, SharesThePointsOfCommonFaces)
 {
   // One cell a block: 4 x 4 x 4 control points, of which the faces' 4 x 4 are common.
-  const auto count = [](const BlockComplex& blocks)
+  const auto count = [](const BlockComplex& blocks, Sharing what = Sharing::Attributes)
   {
     const BlockSpline layout(blocks, 3);
-    return layout.Share(layout.MakeCoarsest(1, 0)).Count();
+    return layout.Share(layout.MakeCoarsest(1, 0), what).Count();
   };
   EXPECT_EQ(count(CubesComplex({ { 0, 0, 0 } })), 64);
   EXPECT_EQ(count(CubesComplex({ { 0, 0, 0 }, { 1, 0, 0 } })), 5 * 4 * 4);
   EXPECT_EQ(count(CubesComplex({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } })), 64 + 48 + 48);
   // The core, and three more layers of the 56 points on the surface of a 4 x 4 x 4 grid.
   EXPECT_EQ(count(LayeredCubeComplex()), 64 + 3 * 56);
+  // The layers another segment: its attributes have the core's surface for themselves.
+  EXPECT_EQ(count(NestedCubeComplex()), 64 + 4 * 56);
+  EXPECT_EQ(count(NestedCubeComplex(), Sharing::Places), 64 + 3 * 56);
   // Three cells of a hexagon: 3 * 9 + 3 * 3 + 1 points in each of four planes.
   EXPECT_EQ(count(ThreeAroundAnEdge()), 4 * (3 * 9 + 3 * 3 + 1));
   EXPECT_EQ(count(BlockComplex({ { 0, 0, 3, 3, 4, 4, 7, 7 } }, { 0 }, { 0 }, { { 0, 0, 0 } })), 48);
@@ -179,7 +177,7 @@ TEST(BlockSpline, WeightsAgreeWithoutBeingMadeToAgree)
         rule->Refine(spline, marks);
       }
     }
-    const SharedPoints shared = layout.Share(spline);
+    const SharedPoints shared = layout.Share(spline, Sharing::Places);
     EXPECT_LT(shared.Count(), spline.Size());
     for (Index i = 0; i < spline.Size(); ++i)
     {

@@ -224,7 +224,7 @@ TEST(RefinementHistory, RefinesAnotherSplineInTheSameWay)
   TSpline other = coarse;
   for (Index i = 0; i < other.Size(); ++i)
   {
-    other.ControlPoint(i)[3] = std::sin(double(layout.Share(coarse).PointOf[i]));
+    other.ControlPoint(i)[3] = std::sin(double(layout.Share(coarse, Sharing::Places).PointOf[i]));
   }
   const TSpline before = other;
   history.Repeat(*first, other);

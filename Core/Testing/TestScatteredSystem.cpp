@@ -26,7 +26,7 @@ protected:
     {
       rule->Refine(this->Spline, RandomMarks(this->Spline, this->RandomPoint(), 6, this->Random));
     }
-    const SharedPoints shared = this->Layout.Share(this->Spline);
+    const SharedPoints shared = this->Layout.Share(this->Spline, Sharing::Attributes);
     std::vector<double> values(shared.Count());
     for (double& value : values)
     {
