@@ -92,6 +92,7 @@ void ReportShape(const BlockFitResult& result, Index voxels, double spacing, vtk
     field, "VoxelsInside", { number(result.VoxelsInside), number(voxels) });
   AddNumbers<vtkIdTypeArray>(field, "VoxelsNear", { number(result.VoxelsNear) });
   AddNumbers<vtkDoubleArray>(field, "SmallestJacobian", { result.SmallestJacobian });
+  AddNumbers<vtkDoubleArray>(field, "GradientJump", { result.Jump.Rms, result.Jump.Maximum });
   AddNumbers<vtkIdTypeArray>(field, "ShapeCells",
     { number(result.ShapeCells), number(result.FoldedCells), number(result.CertifiedCells) });
 }

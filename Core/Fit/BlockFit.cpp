@@ -192,6 +192,24 @@ private:
     {
       this->FollowData(stage, samples, target, shape, *rule);
     }
+    this->MeasureJump(stage);
+  }
+
+  void MeasureJump(const Stage& stage)
+  {
+    std::vector<double> units;
+    for (const double scale : stage.Scales)
+    {
+      units.push_back(this->Options.Spacing / scale);
+    }
+    const TSpline& spline = this->Result.Spline;
+    for (const GradientJump& jump :
+      MeasureGradientJumps(this->Blocks, spline, stage.System.Mesh(), units, this->Run))
+    {
+      this->Result.Jump.Rms = std::max(this->Result.Jump.Rms, jump.Rms);
+      this->Result.Jump.Maximum = std::max(this->Result.Jump.Maximum, jump.Maximum);
+    }
+    this->Lap("jump");
   }
 
   // Moves the shape, on its own net, to where the errors of the attributes want it, and fits these

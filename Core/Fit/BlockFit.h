@@ -18,6 +18,7 @@
 
 #include "Domain/BlockComplex.h"
 #include "Fit.h"
+#include "GradientJump.h"
 
 #include <array>
 #include <functional>
@@ -90,6 +91,8 @@ struct BlockFitResult
   /// Cells of the shape, those of them with a point where that is not positive, and those proven
   /// positive everywhere.
   Index ShapeCells = 0, FoldedCells = 0, CertifiedCells = 0;
+  /// Of the attribute where it is largest, in parts of its range a Spacing.
+  GradientJump Jump;
   std::vector<std::pair<std::string, double>> Seconds; ///< by topic
 };
 

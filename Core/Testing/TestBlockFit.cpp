@@ -36,6 +36,10 @@ TEST(BlockFit, BeatsTheGridOnABall)
   EXPECT_LT(fit.ShapePoints, 500);
   EXPECT_EQ(fit.VoxelsInside, ball.Voxels.Count());
   EXPECT_GT(fit.SmallestJacobian, 0.1);
+  // Nearly all of the jump (.002 inside) is in the ramp, whose gradient is the range a voxel.
+  EXPECT_GT(fit.Jump.Rms, 0.0);
+  EXPECT_LT(fit.Jump.Rms, 0.4);
+  EXPECT_GT(fit.Jump.Maximum, fit.Jump.Rms);
 
   GridSamples grid;
   grid.Size = { 36, 36, 36 };

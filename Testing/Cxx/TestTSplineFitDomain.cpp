@@ -67,6 +67,8 @@ TEST(TSplineFitDomain, FitsABall)
   EXPECT_EQ(FieldNumber(rounds, "VoxelsInside", 1), ball.NumberOfVoxels);
   EXPECT_EQ(FieldNumber(rounds, "VoxelsInside"), ball.NumberOfVoxels);
   EXPECT_EQ(FieldNumber(rounds, "VoxelsNear"), 0.0);
+  EXPECT_GT(FieldNumber(rounds, "GradientJump"), 0.0);
+  EXPECT_LT(FieldNumber(rounds, "GradientJump"), FieldNumber(rounds, "GradientJump", 1));
 
   // Points that are one control point are at one place, with one weight and one density.
   vtkDataArray* shared = grid->GetPointData()->GetArray("SharedControlPoint");
