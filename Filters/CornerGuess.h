@@ -4,7 +4,7 @@
 #ifndef CornerGuess_h
 #define CornerGuess_h
 
-#include "Domain/SegmentDomain.h"
+#include "Search/FindDomain.h"
 
 #include <memory>
 #include <vector>

@@ -4,7 +4,7 @@
 #ifndef SegmentContacts_h
 #define SegmentContacts_h
 
-#include "Domain/SegmentDomain.h"
+#include "Search/FindDomain.h"
 #include "SegmentSurface.h"
 
 #include <map>

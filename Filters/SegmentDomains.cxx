@@ -4,6 +4,7 @@
 
 #include "Domain/InnerCorners.h"
 #include "Domain/InnerPath.h"
+#include "Search/DomainShell.h"
 
 #include <Eigen/Geometry>
 

@@ -4,7 +4,7 @@
 #ifndef SegmentDomains_h
 #define SegmentDomains_h
 
-#include "Domain/DomainShell.h"
+#include "Domain/DomainLayers.h"
 #include "SegmentContacts.h"
 
 #include <string>

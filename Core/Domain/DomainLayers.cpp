@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 
 namespace trivariate
 {
@@ -152,6 +153,31 @@ DomainBlocks LayeredBlocks(const SegmentDomain& domain, double depth, const Exec
   }
   PlaceInnerCorners(blocks, paths, best, below);
   UntangleInnerCorners(blocks, domain.Layout, below, best);
+  return blocks;
+}
+
+//------------------------------------------------------------------------------
+DomainBlocks ShellBlocks(const SegmentDomain& outer, const SegmentDomain& inner)
+{
+  if (outer.Cubes.Cubes != inner.Cubes.Cubes)
+  {
+    throw std::invalid_argument("A shell needs the same polycube on both of its surfaces.");
+  }
+  const Polycube& cubes = outer.Cubes;
+  const auto firstInside = cubes.NumberOfCorners;
+  DomainBlocks blocks{ { outer.Places.begin(), outer.Places.begin() + firstInside },
+    { cubes.Points.begin(), cubes.Points.begin() + firstInside }, {} };
+  std::vector<Index> below;
+  for (Index corner = 0; corner < cubes.NumberOfCorners; ++corner)
+  {
+    below.push_back(static_cast<Index>(blocks.Places.size()));
+    blocks.Places.push_back(inner.Places[corner]);
+    blocks.Coordinates.push_back(cubes.Points[corner]);
+  }
+  for (std::size_t face = 0; face < cubes.Faces.size(); ++face)
+  {
+    blocks.Blocks.push_back(BlockOn(cubes, static_cast<Index>(face), below));
+  }
   return blocks;
 }
 }

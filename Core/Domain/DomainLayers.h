@@ -49,6 +49,13 @@ DomainBlock BlockOn(const Polycube& cubes, Index face, const std::vector<Index>&
 /// vectors: at most 1, which a box has.
 double ScaledJacobian(
   const std::vector<Eigen::Vector3d>& places, const std::array<Index, 8>& hexahedron);
+
+/**
+ * A block on each patch of the outer surface, down to the same patch of the inner one. Points:
+ * corners of the outer surface, then of the inner one. Throws std::invalid_argument where the
+ * polycubes differ.
+ */
+DomainBlocks ShellBlocks(const SegmentDomain& outer, const SegmentDomain& inner);
 }
 
 #endif

@@ -3,29 +3,12 @@
 #include "SegmentDomain.h"
 
 #include "DomainMeasures.h"
-#include "DomainSearch.h"
 #include "LayoutCheck.h"
 #include "RelaxedLayout.h"
-
-#include <stdexcept>
 
 namespace trivariate
 {
 using Eigen::Vector3d;
-
-//------------------------------------------------------------------------------
-SegmentDomain FindDomain(
-  const SurfaceMesh& mesh, const DomainOptions& options, const Execution& execution)
-{
-  Index pieces = 0;
-  mesh.Components(pieces);
-  if (pieces != 1)
-  {
-    throw std::invalid_argument(
-      "The surface has " + std::to_string(pieces) + " pieces; a domain is for one.");
-  }
-  return DomainSearch(mesh, options, execution).Best();
-}
 
 //------------------------------------------------------------------------------
 SegmentDomain DomainFromCorners(const SurfaceMesh& mesh, const Polycube& polycube,

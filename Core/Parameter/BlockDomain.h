@@ -8,7 +8,7 @@
 #define trivariate_BlockDomain_h
 
 #include "BlockMesh.h"
-#include "Domain/DomainShell.h"
+#include "Domain/DomainLayers.h"
 
 #include <map>
 

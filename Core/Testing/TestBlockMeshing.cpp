@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Domain/DomainShell.h"
 #include "Parameter/BlockMeshing.h"
 #include "Parameter/CornerEnergy.h"
+#include "Search/DomainShell.h"
 #include "SegmentSurfaces.h"
 #include "ThreadedExecution.h"
 #include "WatchedExecution.h"

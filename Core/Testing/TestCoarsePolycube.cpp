@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Domain/CellShape.h"
-#include "Domain/CoarsePolycube.h"
-#include "Domain/NormalAxes.h"
-#include "Domain/PolycubeFit.h"
-#include "Domain/SegmentDomain.h"
-#include "Domain/SolidGrid.h"
+#include "Search/CellShape.h"
+#include "Search/CoarsePolycube.h"
+#include "Search/FindDomain.h"
+#include "Search/NormalAxes.h"
+#include "Search/PolycubeFit.h"
+#include "Search/SolidGrid.h"
 #include "SegmentSurfaces.h"
 
 #include <gtest/gtest.h>

@@ -3,6 +3,7 @@
 #include "Domain/ContactPatch.h"
 #include "Domain/LayoutCheck.h"
 #include "LayoutSurfaces.h"
+#include "Search/FindDomain.h"
 
 #include <Eigen/LU>
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Domain/DomainShell.h"
 #include "Domain/InnerCorners.h"
 #include "Domain/InnerPath.h"
 #include "Domain/LayoutCheck.h"
 #include "Domain/TriangleTree.h"
 #include "LayoutSurfaces.h"
+#include "Search/DomainShell.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Domain/FlatPolycube.h"
-#include "Domain/SegmentDomain.h"
+#include "Search/FindDomain.h"
+#include "Search/FlatPolycube.h"
 #include "SegmentSurfaces.h"
 
 #include <gtest/gtest.h>

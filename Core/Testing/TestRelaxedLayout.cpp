@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Domain/ChainLayout.h"
 #include "Domain/LayoutCheck.h"
 #include "Domain/LayoutRelaxation.h"
 #include "Domain/RelaxedLayout.h"
-#include "Domain/SegmentDomain.h"
+#include "Search/ChainLayout.h"
+#include "Search/FindDomain.h"
 #include "SegmentSurfaces.h"
 #include "ThreadedExecution.h"
 

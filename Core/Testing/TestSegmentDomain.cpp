@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Domain/ChainLayout.h"
-#include "Domain/HandleLoop.h"
 #include "Domain/InnerCorners.h"
 #include "Domain/LayoutCheck.h"
-#include "Domain/SegmentDomain.h"
+#include "Search/ChainLayout.h"
+#include "Search/FindDomain.h"
+#include "Search/HandleLoop.h"
 #include "SegmentSurfaces.h"
 
 #include <gtest/gtest.h>

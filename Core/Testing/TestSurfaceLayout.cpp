@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Domain/CubeCharts.h"
 #include "Domain/LayoutCheck.h"
 #include "LayoutSurfaces.h"
+#include "Search/CubeCharts.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Domain/SurfaceReduction.h"
+#include "Search/SurfaceReduction.h"
 #include "SegmentSurfaces.h"
 
 #include <gtest/gtest.h>

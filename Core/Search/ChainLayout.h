@@ -4,7 +4,7 @@
 #ifndef trivariate_ChainLayout_h
 #define trivariate_ChainLayout_h
 
-#include "SurfaceLayout.h"
+#include "Domain/SurfaceLayout.h"
 
 namespace trivariate
 {

@@ -5,6 +5,7 @@
 #define trivariate_DomainSearch_h
 
 #include "ChartDomain.h"
+#include "FindDomain.h"
 
 #include <memory>
 #include <string>

@@ -3,8 +3,8 @@
 #include "ChartDomain.h"
 
 #include "ChainLayout.h"
-#include "DomainMeasures.h"
-#include "LayoutCheck.h"
+#include "Domain/DomainMeasures.h"
+#include "Domain/LayoutCheck.h"
 
 #include <algorithm>
 

@@ -12,8 +12,8 @@
 #ifndef trivariate_ConformalCylinder_h
 #define trivariate_ConformalCylinder_h
 
+#include "Domain/SurfaceMesh.h"
 #include "Execution.h"
-#include "SurfaceMesh.h"
 
 #include <memory>
 

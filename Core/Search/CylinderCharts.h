@@ -4,7 +4,7 @@
 #ifndef trivariate_CylinderCharts_h
 #define trivariate_CylinderCharts_h
 
-#include "ChartRelabelling.h"
+#include "Domain/ChartRelabelling.h"
 
 namespace trivariate
 {

@@ -4,9 +4,9 @@
 #ifndef trivariate_PolycubeFit_h
 #define trivariate_PolycubeFit_h
 
+#include "Domain/Polycube.h"
+#include "Domain/TriangleTree.h"
 #include "Execution.h"
-#include "Polycube.h"
-#include "TriangleTree.h"
 
 #include <array>
 #include <memory>

@@ -4,8 +4,8 @@
 #ifndef trivariate_SolidGrid_h
 #define trivariate_SolidGrid_h
 
+#include "Domain/SurfaceMesh.h"
 #include "Execution.h"
-#include "SurfaceMesh.h"
 
 namespace trivariate
 {

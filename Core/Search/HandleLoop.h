@@ -3,7 +3,7 @@
 #ifndef trivariate_HandleLoop_h
 #define trivariate_HandleLoop_h
 
-#include "SurfaceMesh.h"
+#include "Domain/SurfaceMesh.h"
 
 namespace trivariate
 {

@@ -4,9 +4,9 @@
 #ifndef trivariate_FlatPolycube_h
 #define trivariate_FlatPolycube_h
 
+#include "Domain/Polycube.h"
+#include "Domain/SurfaceMesh.h"
 #include "Execution.h"
-#include "Polycube.h"
-#include "SurfaceMesh.h"
 
 namespace trivariate
 {

@@ -1,23 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * The domain of a shell: a block for each patch, between an outer and an inner surface with the
- * same polycube.
+ * The domain of a shell: the same polycube on an outer and an inner surface.
  */
 #ifndef trivariate_DomainShell_h
 #define trivariate_DomainShell_h
 
-#include "DomainLayers.h"
+#include "FindDomain.h"
 
 namespace trivariate
 {
-/**
- * A block on each patch of the outer surface, down to the same patch of the inner one. Points:
- * corners of the outer surface, then of the inner one. Throws std::invalid_argument where the
- * polycubes differ.
- */
-DomainBlocks ShellBlocks(const SegmentDomain& outer, const SegmentDomain& inner);
-
 /// A domain of one cube with its axes exchanged and turned so that its corners come near those of
 /// another.
 SegmentDomain TurnedToward(const SegmentDomain& domain, const SegmentDomain& other);

@@ -4,8 +4,8 @@
 #ifndef trivariate_SurfaceReduction_h
 #define trivariate_SurfaceReduction_h
 
+#include "Domain/SurfaceMesh.h"
 #include "Execution.h"
-#include "SurfaceMesh.h"
 
 namespace trivariate
 {

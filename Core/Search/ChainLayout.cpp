@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ChainLayout.h"
 
-#include "LayoutBuilder.h"
+#include "Domain/LayoutBuilder.h"
 
 #include <algorithm>
 #include <limits>

@@ -3,15 +3,15 @@
 #include "DomainSearch.h"
 
 #include "CoarsePolycube.h"
-#include "DomainMeasures.h"
+#include "Domain/DomainMeasures.h"
+#include "Domain/InnerCorners.h"
+#include "Domain/LayoutCheck.h"
+#include "Domain/RelaxedLayout.h"
 #include "FlatPolycube.h"
 #include "HandleLoop.h"
-#include "InnerCorners.h"
-#include "LayoutCheck.h"
 #include "NormalAxes.h"
 #include "Parameter/CoarseHexahedra.h"
 #include "PolycubeFit.h"
-#include "RelaxedLayout.h"
 #include "SurfaceReduction.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "NormalAxes.h"
 
-#include "ClosestRotation.h"
+#include "Domain/ClosestRotation.h"
 
 #include <cmath>
 

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DomainShell.h"
 
-#include "InnerCorners.h"
-#include "InnerPath.h"
-#include "TriangleTree.h"
+#include "Domain/DomainLayers.h"
+#include "Domain/InnerCorners.h"
+#include "Domain/InnerPath.h"
+#include "Domain/TriangleTree.h"
 
 #include <Eigen/LU>
 
@@ -89,31 +90,6 @@ std::optional<SegmentDomain> WithCorners(const SurfaceMesh& surface, const Segme
   }
   return std::nullopt;
 }
-}
-
-//------------------------------------------------------------------------------
-DomainBlocks ShellBlocks(const SegmentDomain& outer, const SegmentDomain& inner)
-{
-  if (outer.Cubes.Cubes != inner.Cubes.Cubes)
-  {
-    throw std::invalid_argument("A shell needs the same polycube on both of its surfaces.");
-  }
-  const Polycube& cubes = outer.Cubes;
-  const auto firstInside = cubes.NumberOfCorners;
-  DomainBlocks blocks{ { outer.Places.begin(), outer.Places.begin() + firstInside },
-    { cubes.Points.begin(), cubes.Points.begin() + firstInside }, {} };
-  std::vector<Index> below;
-  for (Index corner = 0; corner < cubes.NumberOfCorners; ++corner)
-  {
-    below.push_back(static_cast<Index>(blocks.Places.size()));
-    blocks.Places.push_back(inner.Places[corner]);
-    blocks.Coordinates.push_back(cubes.Points[corner]);
-  }
-  for (std::size_t face = 0; face < cubes.Faces.size(); ++face)
-  {
-    blocks.Blocks.push_back(BlockOn(cubes, static_cast<Index>(face), below));
-  }
-  return blocks;
 }
 
 //------------------------------------------------------------------------------

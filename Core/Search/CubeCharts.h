@@ -4,7 +4,7 @@
 #ifndef trivariate_CubeCharts_h
 #define trivariate_CubeCharts_h
 
-#include "ChartRelabelling.h"
+#include "Domain/ChartRelabelling.h"
 
 namespace trivariate
 {

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CubeCharts.h"
 
-#include "ClosestRotation.h"
 #include "ConformalCylinder.h"
 #include "CylinderCharts.h"
+#include "Domain/ClosestRotation.h"
 #include "FarthestPoint.h"
 #include "NormalAxes.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CellShape.h"
 
-#include "SimplePoint.h"
+#include "Domain/SimplePoint.h"
 
 #include <algorithm>
 

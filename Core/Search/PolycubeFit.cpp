@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PolycubeFit.h"
 
-#include "ClosestRotation.h"
+#include "Domain/ClosestRotation.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>

@@ -4,7 +4,7 @@
 #ifndef trivariate_CellShape_h
 #define trivariate_CellShape_h
 
-#include "Polycube.h"
+#include "Domain/Polycube.h"
 
 #include <cstdint>
 

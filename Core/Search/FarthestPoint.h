@@ -3,7 +3,7 @@
 #ifndef trivariate_FarthestPoint_h
 #define trivariate_FarthestPoint_h
 
-#include "SurfaceMesh.h"
+#include "Domain/SurfaceMesh.h"
 
 namespace trivariate
 {

@@ -4,7 +4,8 @@
 #ifndef trivariate_ChartDomain_h
 #define trivariate_ChartDomain_h
 
-#include "SegmentDomain.h"
+#include "CubeCharts.h"
+#include "Domain/SegmentDomain.h"
 
 namespace trivariate
 {
