@@ -212,18 +212,12 @@ void vtkTSplineFit::FitImage(ImageSamples& samples, vtkUnstructuredGrid* output,
 void vtkTSplineFit::FitDomain(ImageSamples& samples, vtkInformationVector** inputVector,
   vtkUnstructuredGrid* output, vtkTable* rounds)
 {
-  if (this->RefinementRule != COMPACT)
-  {
-    throw std::invalid_argument(
-      "Over a domain only the compact rule refines: bisection with a closure, and one uniform "
-      "mesh, "
-      "know a single box. Choose the compact rule, or disconnect the polycube.");
-  }
   const BlockComplex blocks = ReadBlocks(vtkUnstructuredGrid::GetData(inputVector[1]));
   const BlockSamples voxels = TakeVoxels(samples, blocks);
   const ShapeSamples shape =
     ReadShape(vtkPartitionedDataSetCollection::GetData(inputVector[2]), blocks);
   BlockFitOptions options;
+  options.Rule = static_cast<Refinement>(this->RefinementRule);
   options.MaximumControlPoints = this->MaximumNumberOfControlPoints;
   options.RmsTolerance = this->RMSTolerance / 100.0;
   options.MaximumErrorTolerance = this->MaximumErrorTolerance;

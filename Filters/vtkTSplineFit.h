@@ -70,7 +70,7 @@
  * @par Errors
  * An image without points, without the chosen array, with a mask array of another size or without
  * a voxel that counts, one voxel thick, with NaN or infinity, or too large for the memory. Over a
- * domain: another refinement rule than COMPACT, parameters outside of the blocks, fewer control
+ * domain: the refinement rule UNIFORM, parameters outside of the blocks, fewer control
  * points allowed than the blocks have at least.
  *
  * @par Reference

@@ -70,7 +70,9 @@ public:
     , Marks([this](const TSpline& spline) { return this->CountPoints(spline); })
   {
     this->Result.Spline = this->Layout.MakeCoarsest(options.CoarsestCells, voxels.Components);
-    this->Rule = MakeBlockRule(this->Layout, this->Result.Spline);
+    this->Rule = options.Rule == Refinement::Compact
+                   ? MakeBlockRule(this->Layout, this->Result.Spline)
+                   : MakeAnalysisSuitableBlockRule(this->Layout, options.CoarsestCells);
     this->CoarsestSize = this->CountPoints(this->Result.Spline);
     if (this->CoarsestSize > options.MaximumControlPoints)
     {

@@ -58,7 +58,8 @@ void AddSamplesOfBlock(const BlockComplex& blocks, Index b, const std::array<int
 
 struct BlockFitOptions
 {
-  Index MaximumControlPoints = 50000; ///< distinct ones; hard limit
+  Refinement Rule = Refinement::Compact; ///< that or AnalysisSuitable
+  Index MaximumControlPoints = 50000;    ///< distinct ones; hard limit
   /// As in FitOptions.
   double RmsTolerance = 0.0;
   double MaximumErrorTolerance = 0.0;

@@ -40,6 +40,11 @@ void CheckBlockFit(const BlockComplex& blocks, const BlockSamples& voxels,
   {
     fail("A tolerance is negative or not a number, or the distance of voxels is not positive.");
   }
+  if (options.Rule == Refinement::Uniform)
+  {
+    fail("Over a domain splines are refined: choose the compact or the analysis-suitable rule, or "
+         "disconnect the polycube for one uniform mesh.");
+  }
   if (voxels.Parameters.empty() && shape.Parameters.empty())
   {
     fail("The voxels have no parameters, and there is no shape to find them from.");

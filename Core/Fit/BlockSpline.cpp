@@ -130,16 +130,7 @@ public:
       this->Inner->Refine(spline, wanted);
       wanted = this->Layout->CrossedTraces(spline);
     } while (!wanted.empty());
-    const SharedPoints whole = this->Layout->Share(spline, Sharing::Attributes),
-                       places = this->Layout->Share(spline, Sharing::Places);
-    for (Index i = 0; i < spline.Size(); ++i)
-    {
-      const Index first = whole.FirstOf[whole.PointOf[i]],
-                  place = places.FirstOf[places.PointOf[i]];
-      spline.Weights[i] = spline.Weights[place];
-      std::copy_n(spline.ControlPoint(first), spline.Components, spline.ControlPoint(i));
-      std::copy_n(spline.ControlPoint(place), 3, spline.ControlPoint(i));
-    }
+    this->Layout->MakePointsEqual(spline);
   }
 
 private:
@@ -164,6 +155,20 @@ BlockSpline::BlockSpline(const BlockComplex& complex, int depth)
 }
 
 //------------------------------------------------------------------------------
+TSpline BlockSpline::MakeCoarsestGroup(
+  const std::pair<LatticePoint, LatticePoint>& box, int cells) const
+{
+  const auto& [low, high] = box;
+  std::array<KnotLine, 3> lines;
+  for (int a = 0; a < 3; ++a)
+  {
+    lines[a] = MakeUniformKnotLine(low[a], high[a], (high[a] - low[a]) * this->One);
+  }
+  const int stride = this->One / cells;
+  return MakeTensorProduct(lines, { stride, stride, stride }, 0);
+}
+
+//------------------------------------------------------------------------------
 TSpline BlockSpline::MakeCoarsest(int cells, int attributes) const
 {
   if (cells < 1 || (cells & (cells - 1)) != 0 || cells > this->One)
@@ -178,20 +183,13 @@ TSpline BlockSpline::MakeCoarsest(int cells, int attributes) const
   }
   for (const auto& entry : this->Complex->GroupBoxes())
   {
-    const auto& [low, high] = entry.second;
-    std::array<KnotLine, 3> lines;
-    for (int a = 0; a < 3; ++a)
-    {
-      lines[a] = MakeUniformKnotLine(low[a], high[a], (high[a] - low[a]) * this->One);
-    }
-    const int stride = this->One / cells;
-    for (BlendingFunction f : MakeTensorProduct(lines, { stride, stride, stride }, 0).Functions)
+    for (BlendingFunction f : this->MakeCoarsestGroup(entry.second, cells).Functions)
     {
       for (int a = 0; a < 3; ++a)
       {
         for (std::int32_t& knot : f[a])
         {
-          knot += low[a] * this->One;
+          knot += entry.second.first[a] * this->One;
         }
       }
       spline.Functions.push_back(f);
@@ -301,6 +299,20 @@ SharedPoints BlockSpline::Share(const TSpline& spline, Sharing what) const
     shared.PointOf[i] = shared.PointOf[first];
   }
   return shared;
+}
+
+//------------------------------------------------------------------------------
+void BlockSpline::MakePointsEqual(TSpline& spline) const
+{
+  const SharedPoints whole = this->Share(spline, Sharing::Attributes),
+                     places = this->Share(spline, Sharing::Places);
+  for (Index i = 0; i < spline.Size(); ++i)
+  {
+    const Index first = whole.FirstOf[whole.PointOf[i]], place = places.FirstOf[places.PointOf[i]];
+    spline.Weights[i] = spline.Weights[place];
+    std::copy_n(spline.ControlPoint(first), spline.Components, spline.ControlPoint(i));
+    std::copy_n(spline.ControlPoint(place), 3, spline.ControlPoint(i));
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -51,11 +51,18 @@ public:
   /// weights one, control points zero.
   TSpline MakeCoarsest(int cells, int attributes) const;
 
+  /// The part of it in the box of a group (see BlockComplex::GroupBoxes), with knots counted from
+  /// the box's low end; X, Y, Z are (u, v, w), and there are no attributes.
+  TSpline MakeCoarsestGroup(const std::pair<LatticePoint, LatticePoint>& box, int cells) const;
+
   /// The block in whose box the support of a function begins: its only one, or one of its group.
   Index BlockOf(const BlendingFunction& f) const;
 
   /// Points are numbered by their first functions. O(n).
   SharedPoints Share(const TSpline& spline, Sharing what) const;
+
+  /// Gives functions the weight and what they share of the control point of the first of them.
+  void MakePointsEqual(TSpline& spline) const;
 
   /// A way to split a function: in the middle of one of the four spans of its knots in a direction.
   static Index SplitNumber(Index function, int direction, int span)
@@ -103,6 +110,14 @@ private:
  * rounding, and are made equal. `layout` must outlive the rule.
  */
 std::unique_ptr<RefinementRule> MakeBlockRule(const BlockSpline& layout, const TSpline& coarsest);
+
+/**
+ * The rule of MakeAnalysisSuitableRule in each group, for the spline of MakeCoarsest with so many
+ * cells, with further bisections until the meshes on the two sides of every glued face are the
+ * same. Weights are one, and functions are dual-compatible and independent in each group. `layout`
+ * must outlive the rule.
+ */
+std::unique_ptr<RefinementRule> MakeAnalysisSuitableBlockRule(const BlockSpline& layout, int cells);
 }
 
 #endif

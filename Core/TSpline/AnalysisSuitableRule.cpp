@@ -101,150 +101,149 @@ double Dual(const Numbered& fine, const Numbered& coarse, std::array<Duals, 3>& 
   return product;
 }
 
-class AnalysisSuitableRule : public RefinementRule
+}
+
+//------------------------------------------------------------------------------
+AnalysisSuitableRule::AnalysisSuitableRule(
+  const GridIndex& rootCells, const std::array<int, 3>& depth, Closure closure)
+  : Mesh(rootCells, depth, closure)
+  , Anchors(Mesh.SortedAnchors())
+  , CoarseNodes(Mesh.CountNodes())
 {
-public:
-  AnalysisSuitableRule(const GridIndex& rootCells, const std::array<int, 3>& depth, Closure closure)
-    : Mesh(rootCells, depth, closure)
-    , Anchors(Mesh.SortedAnchors())
+}
+
+//------------------------------------------------------------------------------
+void AnalysisSuitableRule::Bisect(const TSpline& spline, const std::vector<RefinementMark>& marks)
+{
+  this->Check(spline, marks);
+  for (const RefinementMark& mark : marks)
   {
+    this->BisectAround(spline.Functions[mark.Function], mark.Direction, mark.Knot);
   }
+}
 
-  bool Matches(const TSpline& spline) const { return spline.Functions == this->Mesh.Functions(); }
+//------------------------------------------------------------------------------
+void AnalysisSuitableRule::Carry(TSpline& spline)
+{
+  std::vector<Index> changed;
+  TSpline refined = this->CarryFunctions(spline, changed);
+  this->Transfer(spline, changed, refined);
+  spline = std::move(refined);
+  this->CoarseNodes = this->Mesh.CountNodes();
+}
 
-  std::unique_ptr<RefinementRule> Clone() const override
+//------------------------------------------------------------------------------
+void AnalysisSuitableRule::Check(
+  const TSpline& spline, const std::vector<RefinementMark>& marks) const
+{
+  if (spline.Size() != static_cast<Index>(this->Anchors.size()))
   {
-    return std::make_unique<AnalysisSuitableRule>(*this);
+    throw std::invalid_argument("The spline is not the one that this refinement belongs to.");
   }
-
-  void Refine(TSpline& spline, const std::vector<RefinementMark>& marks) override
+  for (const RefinementMark& mark : marks)
   {
-    this->Check(spline, marks);
-    const BisectionMesh::Node coarseNodes = this->Mesh.CountNodes();
-    for (const RefinementMark& mark : marks)
+    if (mark.Function < 0 || mark.Function >= spline.Size() || mark.Direction < 0 ||
+        mark.Direction > 2 || mark.Knot < spline.Functions[mark.Function][mark.Direction][0] ||
+        mark.Knot > spline.Functions[mark.Function][mark.Direction][4])
     {
-      this->Bisect(spline.Functions[mark.Function], mark.Direction, mark.Knot, coarseNodes);
+      throw std::out_of_range("A refinement mark lies outside of the support of its function.");
     }
-    std::vector<Index> changed;
-    TSpline refined = this->Carry(spline, changed);
-    this->Transfer(spline, coarseNodes, changed, refined);
-    spline = std::move(refined);
   }
+}
 
-private:
-  void Check(const TSpline& spline, const std::vector<RefinementMark>& marks) const
+//------------------------------------------------------------------------------
+// Bisects the cells at the axis of f that the knot lies inside of, unless that has been done
+// since the spline was carried to the mesh.
+void AnalysisSuitableRule::BisectAround(const BlendingFunction& f, int direction, std::int32_t knot)
+{
+  const int b = (direction + 1) % 3, c = (direction + 2) % 3;
+  for (const std::int32_t y : { f[b][2] - 1, f[b][2] })
   {
-    if (spline.Size() != static_cast<Index>(this->Anchors.size()))
+    for (const std::int32_t z : { f[c][2] - 1, f[c][2] })
     {
-      throw std::invalid_argument("The spline is not the one that this refinement belongs to.");
-    }
-    for (const RefinementMark& mark : marks)
-    {
-      if (mark.Function < 0 || mark.Function >= spline.Size() || mark.Direction < 0 ||
-          mark.Direction > 2 || mark.Knot < spline.Functions[mark.Function][mark.Direction][0] ||
-          mark.Knot > spline.Functions[mark.Function][mark.Direction][4])
+      GridIndex at;
+      at[direction] = knot;
+      at[b] = y;
+      at[c] = z;
+      if (this->Mesh.Inside(at))
       {
-        throw std::out_of_range("A refinement mark lies outside of the support of its function.");
-      }
-    }
-  }
-
-  // Bisects the cells at the axis of f that the knot lies inside of, unless that has been done
-  // since the mesh had `coarseNodes` nodes.
-  void Bisect(
-    const BlendingFunction& f, int direction, std::int32_t knot, BisectionMesh::Node coarseNodes)
-  {
-    const int b = (direction + 1) % 3, c = (direction + 2) % 3;
-    for (const std::int32_t y : { f[b][2] - 1, f[b][2] })
-    {
-      for (const std::int32_t z : { f[c][2] - 1, f[c][2] })
-      {
-        GridIndex at;
-        at[direction] = knot;
-        at[b] = y;
-        at[c] = z;
-        if (this->Mesh.Inside(at))
+        const BisectionMesh::Cell cell = this->Mesh.Find(at);
+        if (cell.Id < this->CoarseNodes && this->Mesh.Box(at, cell.Level).Low[direction] < knot)
         {
-          const BisectionMesh::Cell cell = this->Mesh.Find(at);
-          if (cell.Id < coarseNodes && this->Mesh.Box(at, cell.Level).Low[direction] < knot)
-          {
-            this->Mesh.Bisect(at);
-          }
+          this->Mesh.Bisect(at);
         }
       }
     }
   }
-
-  // The functions of the refined mesh, with the control points of those that were there before; the
-  // others are listed in `changed` and have zeros.
-  TSpline Carry(const TSpline& coarse, std::vector<Index>& changed)
-  {
-    const std::vector<Index> old = std::exchange(this->Anchors, this->Mesh.SortedAnchors());
-    TSpline refined;
-    refined.KnotLines = coarse.KnotLines;
-    refined.Components = coarse.Components;
-    refined.Functions.reserve(this->Anchors.size());
-    refined.Weights.assign(this->Anchors.size(), 1.0);
-    refined.ControlPoints.assign(this->Anchors.size() * coarse.Components, 0.0);
-    Index from = 0; // anchors stay, so the old ones appear among the new ones in the same order
-    for (const Index anchor : this->Anchors)
-    {
-      const Index i = refined.Size();
-      refined.Functions.push_back(this->Mesh.FunctionAt(anchor));
-      const bool wasThere = from < coarse.Size() && old[from] == anchor;
-      if (wasThere && coarse.Functions[from] == refined.Functions[i])
-      {
-        std::copy_n(coarse.ControlPoint(from), coarse.Components, refined.ControlPoint(i));
-      }
-      else
-      {
-        changed.push_back(i);
-      }
-      from += wasThere ? 1 : 0;
-    }
-    return refined;
-  }
-
-  void Transfer(const TSpline& coarse, BisectionMesh::Node coarseNodes,
-    const std::vector<Index>& changed, TSpline& refined) const
-  {
-    std::array<Duals, 3> duals{ Duals(coarse.KnotLines[0]), Duals(coarse.KnotLines[1]),
-      Duals(coarse.KnotLines[2]) };
-    // By coarse cell, the functions whose functional is taken in it.
-    std::vector<char> wanted(coarseNodes, false);
-    std::vector<std::vector<std::size_t>> inCell(coarseNodes);
-    std::vector<Numbered> functions;
-    for (const Index i : changed)
-    {
-      functions.push_back(Number(refined.Functions[i], duals));
-      inCell[this->Mesh.MarkPath(functions.back().Unit, wanted).Id].push_back(functions.size() - 1);
-    }
-    for (Index j = 0; j < coarse.Size(); ++j)
-    {
-      const Numbered g = Number(coarse.Functions[j], duals);
-      this->Mesh.VisitCells(SupportOf(g.Knots), wanted,
-        [&](const BisectionMesh::Cell& cell, const GridIndex&)
-        {
-          for (const std::size_t n : inCell[cell.Id])
-          {
-            const double dual =
-              SupportHolds(g.Knots, functions[n].Unit) ? Dual(functions[n], g, duals) : 0.0;
-            for (int c = 0; dual != 0.0 && c < coarse.Components; ++c)
-            {
-              refined.ControlPoint(changed[n])[c] += dual * coarse.ControlPoint(j)[c];
-            }
-          }
-        });
-    }
-  }
-
-  BisectionMesh Mesh;
-  std::vector<Index> Anchors; // of the functions of the spline, in their order
-};
 }
 
 //------------------------------------------------------------------------------
-std::unique_ptr<RefinementRule> MakeAnalysisSuitableRule(
+// The functions of the refined mesh, with the control points of those that were there before; the
+// others are listed in `changed` and have zeros.
+TSpline AnalysisSuitableRule::CarryFunctions(const TSpline& coarse, std::vector<Index>& changed)
+{
+  const std::vector<Index> old = std::exchange(this->Anchors, this->Mesh.SortedAnchors());
+  TSpline refined;
+  refined.KnotLines = coarse.KnotLines;
+  refined.Components = coarse.Components;
+  refined.Functions.reserve(this->Anchors.size());
+  refined.Weights.assign(this->Anchors.size(), 1.0);
+  refined.ControlPoints.assign(this->Anchors.size() * coarse.Components, 0.0);
+  Index from = 0; // anchors stay, so the old ones appear among the new ones in the same order
+  for (const Index anchor : this->Anchors)
+  {
+    const Index i = refined.Size();
+    refined.Functions.push_back(this->Mesh.FunctionAt(anchor));
+    const bool wasThere = from < coarse.Size() && old[from] == anchor;
+    if (wasThere && coarse.Functions[from] == refined.Functions[i])
+    {
+      std::copy_n(coarse.ControlPoint(from), coarse.Components, refined.ControlPoint(i));
+    }
+    else
+    {
+      changed.push_back(i);
+    }
+    from += wasThere ? 1 : 0;
+  }
+  return refined;
+}
+
+//------------------------------------------------------------------------------
+void AnalysisSuitableRule::Transfer(
+  const TSpline& coarse, const std::vector<Index>& changed, TSpline& refined) const
+{
+  std::array<Duals, 3> duals{ Duals(coarse.KnotLines[0]), Duals(coarse.KnotLines[1]),
+    Duals(coarse.KnotLines[2]) };
+  // By coarse cell, the functions whose functional is taken in it.
+  std::vector<char> wanted(this->CoarseNodes, false);
+  std::vector<std::vector<std::size_t>> inCell(this->CoarseNodes);
+  std::vector<Numbered> functions;
+  for (const Index i : changed)
+  {
+    functions.push_back(Number(refined.Functions[i], duals));
+    inCell[this->Mesh.MarkPath(functions.back().Unit, wanted).Id].push_back(functions.size() - 1);
+  }
+  for (Index j = 0; j < coarse.Size(); ++j)
+  {
+    const Numbered g = Number(coarse.Functions[j], duals);
+    this->Mesh.VisitCells(SupportOf(g.Knots), wanted,
+      [&](const BisectionMesh::Cell& cell, const GridIndex&)
+      {
+        for (const std::size_t n : inCell[cell.Id])
+        {
+          const double dual =
+            SupportHolds(g.Knots, functions[n].Unit) ? Dual(functions[n], g, duals) : 0.0;
+          for (int c = 0; dual != 0.0 && c < coarse.Components; ++c)
+          {
+            refined.ControlPoint(changed[n])[c] += dual * coarse.ControlPoint(j)[c];
+          }
+        }
+      });
+  }
+}
+
+//------------------------------------------------------------------------------
+std::unique_ptr<AnalysisSuitableRule> MakeAnalysisSuitableRule(
   const TSpline& tensorProduct, Closure closure)
 {
   GridIndex rootCells{ 0, 0, 0 };

@@ -240,8 +240,14 @@ void BisectionMesh::VisitBelow(const Cell& node, const GridIndex& corner, const 
 //------------------------------------------------------------------------------
 std::vector<IndexBox> BisectionMesh::Cells() const
 {
+  return this->Cells({ { 0, 0, 0 }, this->Ends });
+}
+
+//------------------------------------------------------------------------------
+std::vector<IndexBox> BisectionMesh::Cells(const IndexBox& box) const
+{
   std::vector<IndexBox> cells;
-  this->VisitCells({ { 0, 0, 0 }, this->Ends }, std::vector<char>(this->Children.size(), true),
+  this->VisitCells(box, std::vector<char>(this->Children.size(), true),
     [this, &cells](const Cell& cell, const GridIndex& corner)
     { cells.push_back(this->Box(corner, cell.Level)); });
   return cells;

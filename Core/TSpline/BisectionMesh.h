@@ -87,6 +87,9 @@ public:
   /// All cells: root by root (u fastest), from low to high inside of each.
   std::vector<IndexBox> Cells() const;
 
+  /// Those of them that overlap a box inside of the mesh.
+  std::vector<IndexBox> Cells(const IndexBox& box) const;
+
   /// Told a node and its low corner.
   using Visitor = std::function<void(const Cell& node, const GridIndex& corner)>;
 

@@ -49,6 +49,37 @@ double LastOf(vtkTable* table, const char* column)
 {
   return table->GetValueByName(table->GetNumberOfRows() - 1, column).ToDouble();
 }
+
+//------------------------------------------------------------------------------
+// All voxels are found in the image of the spline by the inverse map, with at most that error.
+void ExpectImageOf(vtkTSplineFit* fit, const BallDomain& ball, double rms)
+{
+  vtkNew<vtkTSplineSource> source;
+  source->SetInputConnection(fit->GetOutputPort());
+  source->SetOutputType(vtkTSplineSource::IMAGE);
+  source->SetInputData(1, ball.Image);
+  source->Update();
+  auto* image = vtkImageData::SafeDownCast(source->GetOutputDataObject(0));
+  ASSERT_NE(image, nullptr);
+  vtkDataArray* fitted = image->GetPointData()->GetArray("Density");
+  vtkDataArray* input = ball.Image->GetPointData()->GetArray("Density");
+  vtkDataArray* mask = ball.Image->GetPointData()->GetArray("ParameterMask");
+  vtkDataArray* valid = image->GetPointData()->GetArray("vtkValidPointMask");
+  ASSERT_TRUE(fitted && valid);
+  ASSERT_EQ(fitted->GetNumberOfTuples(), input->GetNumberOfTuples());
+  double squares = 0.0;
+  int found = 0;
+  for (vtkIdType id = 0; id < fitted->GetNumberOfTuples(); ++id)
+  {
+    if (mask->GetComponent(id, 0) != 0.0 && valid->GetComponent(id, 0) != 0.0)
+    {
+      squares += std::pow(fitted->GetComponent(id, 0) - input->GetComponent(id, 0), 2);
+      ++found;
+    }
+  }
+  EXPECT_EQ(found, ball.NumberOfVoxels);
+  EXPECT_LT(std::sqrt(squares / found), rms);
+}
 }
 
 //------------------------------------------------------------------------------
@@ -120,29 +151,7 @@ TEST(TSplineFitDomain, IsEvaluatedOverAllBlocks)
   EXPECT_NEAR(volume, 4.18879 * std::pow(ball.Map.Radius + 0.25, 3), 0.02 * volume);
   EXPECT_GT(least, 0.0);
 
-  source->SetOutputType(vtkTSplineSource::IMAGE);
-  source->SetInputData(1, ball.Image);
-  source->Update();
-  auto* image = vtkImageData::SafeDownCast(source->GetOutputDataObject(0));
-  ASSERT_NE(image, nullptr);
-  vtkDataArray* fitted = image->GetPointData()->GetArray("Density");
-  vtkDataArray* input = ball.Image->GetPointData()->GetArray("Density");
-  vtkDataArray* mask = ball.Image->GetPointData()->GetArray("ParameterMask");
-  vtkDataArray* valid = image->GetPointData()->GetArray("vtkValidPointMask");
-  ASSERT_TRUE(fitted && valid);
-  ASSERT_EQ(fitted->GetNumberOfTuples(), input->GetNumberOfTuples());
-  double squares = 0.0;
-  int found = 0;
-  for (vtkIdType id = 0; id < fitted->GetNumberOfTuples(); ++id)
-  {
-    if (mask->GetComponent(id, 0) != 0.0 && valid->GetComponent(id, 0) != 0.0)
-    {
-      squares += std::pow(fitted->GetComponent(id, 0) - input->GetComponent(id, 0), 2);
-      ++found;
-    }
-  }
-  EXPECT_EQ(found, ball.NumberOfVoxels);
-  EXPECT_LT(std::sqrt(squares / found), 0.01);
+  ExpectImageOf(fit, ball, 0.01);
 }
 
 //------------------------------------------------------------------------------
@@ -188,6 +197,25 @@ TEST(TSplineFitDomain, DoesWithoutMeshes)
 }
 
 //------------------------------------------------------------------------------
+// Refined for analysis the weights are one, and every voxel is found again.
+TEST(TSplineFitDomain, IsRefinedForAnalysis)
+{
+  const BallDomain ball(20);
+  const auto fit = MakeFit(ball, 900);
+  fit->SetRefinementRule(vtkTSplineFit::ANALYSIS_SUITABLE);
+  fit->Update();
+  vtkTable* rounds = vtkTable::SafeDownCast(fit->GetOutputDataObject(1));
+  EXPECT_LT(LastOf(rounds, "RMS"), 2.0);
+  EXPECT_LE(LastOf(rounds, "ControlPoints"), 900.0);
+  EXPECT_EQ(FieldNumber(rounds, "ShapeCells", 1), 0.0);
+  EXPECT_EQ(FieldNumber(rounds, "VoxelsInside"), ball.NumberOfVoxels);
+  const double* weights = fit->GetOutput()->GetPointData()->GetArray("Weight")->GetRange();
+  EXPECT_EQ(weights[0], 1.0);
+  EXPECT_EQ(weights[1], 1.0);
+  ExpectImageOf(fit, ball, 0.02);
+}
+
+//------------------------------------------------------------------------------
 TEST(TSplineFitDomain, RefusesWhatDoesNotBelongTogether)
 {
   const BallDomain ball(20);
@@ -199,8 +227,8 @@ TEST(TSplineFitDomain, RefusesWhatDoesNotBelongTogether)
     return log.TakeOnly();
   };
   auto fit = MakeFit(ball, 600);
-  fit->SetRefinementRule(vtkTSplineFit::ANALYSIS_SUITABLE);
-  EXPECT_NE(messageOf(fit).find("only the compact rule"), std::string::npos);
+  fit->SetRefinementRule(vtkTSplineFit::UNIFORM);
+  EXPECT_NE(messageOf(fit).find("compact or the analysis-suitable"), std::string::npos);
   fit = MakeFit(ball, 231);
   EXPECT_NE(messageOf(fit).find("at least 232"), std::string::npos);
 
