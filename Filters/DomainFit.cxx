@@ -18,15 +18,19 @@
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkIdList.h"
+#include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
+#include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkStringArray.h"
 #include "vtkStructuredGrid.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
@@ -179,7 +183,7 @@ FilledDomains FillCubesAlone(
 }
 
 //------------------------------------------------------------------------------
-FittedPart RunFit(vtkTSplineFit* fit, const char* mask, int segment, const std::string& step,
+FittedPart RunFit(vtkTSplineFit* fit, const char* mask, const std::string& step,
   const SegmentFitOptions& options, Chain& chain, double from, double to)
 {
   fit->SetController(nullptr);
@@ -195,25 +199,68 @@ FittedPart RunFit(vtkTSplineFit* fit, const char* mask, int segment, const std::
   ChainStep(fit, chain, from, to, step).Run();
   FittedPart part;
   part.Model = TSplineFromGrid(fit->GetOutput());
-  part.Model.Segment.assign(part.Model.Spline.Size(), segment);
   part.Rounds = vtkTable::SafeDownCast(fit->GetOutputDataObject(1));
   return part;
 }
 
 //------------------------------------------------------------------------------
-FittedPart FitOverDomain(const FilledDomains& domains, vtkImageData* image, const char* mask,
-  int segment, const SegmentFitOptions& options, Chain& chain, double from, double to)
+std::vector<std::set<int>> TouchingSegments(const FilledDomains& domains, int lowest)
 {
-  if (domains.Folded.count(segment) > 0)
+  const BlockComplex blocks = ReadBlocks(domains.Polycubes);
+  std::map<int, std::set<int>> touched; // by each segment
+  for (Index b = 0; b < blocks.Size(); ++b)
   {
-    throw std::runtime_error("Its block mesh has folds.");
+    for (int side = 0; side < 6; ++side)
+    {
+      const Index other = blocks.Twin({ b, side / 2, side % 2 }).Face.Block;
+      const auto counts = [&](Index block)
+      {
+        const int segment = blocks.Segments[block];
+        return segment >= lowest && domains.Folded.count(segment) == 0;
+      };
+      if (other >= 0 && blocks.Segments[b] != blocks.Segments[other] && counts(b) && counts(other))
+      {
+        touched[blocks.Segments[b]].insert(blocks.Segments[other]);
+      }
+    }
+  }
+  std::vector<std::set<int>> sets;
+  while (!touched.empty())
+  {
+    std::set<int>& all = sets.emplace_back();
+    std::set<int> open{ touched.begin()->first };
+    while (!open.empty())
+    {
+      const int segment = *open.begin();
+      open.erase(open.begin());
+      if (all.insert(segment).second)
+      {
+        open.merge(touched[segment]);
+        touched.erase(segment);
+      }
+    }
+  }
+  return sets;
+}
+
+//------------------------------------------------------------------------------
+FittedPart FitOverDomain(const FilledDomains& domains, vtkImageData* image, const char* mask,
+  const std::set<int>& segments, const SegmentFitOptions& options, Chain& chain, double from,
+  double to)
+{
+  for (const int segment : segments)
+  {
+    if (domains.Folded.count(segment) > 0)
+    {
+      throw std::runtime_error("Its block mesh has folds.");
+    }
   }
   vtkDataArray* owners = domains.Polycubes->GetCellData()->GetArray("Segment");
   std::vector<vtkIdType> cells;
   vtkNew<vtkPartitionedDataSetCollection> blocks;
   for (vtkIdType cell = 0; cell < domains.Polycubes->GetNumberOfCells(); ++cell)
   {
-    if (static_cast<int>(owners->GetTuple1(cell)) == segment)
+    if (segments.count(static_cast<int>(owners->GetTuple1(cell))) > 0)
     {
       blocks->SetPartition(static_cast<unsigned int>(cells.size()), 0,
         domains.Blocks->GetPartition(static_cast<unsigned int>(cell), 0));
@@ -227,7 +274,7 @@ FittedPart FitOverDomain(const FilledDomains& domains, vtkImageData* image, cons
   fit->SetInputData(0, image);
   fit->SetInputData(1, cubes);
   fit->SetInputData(2, blocks);
-  FittedPart part = RunFit(fit, mask, segment, "FitOverCubes", options, chain, from, to);
+  FittedPart part = RunFit(fit, mask, "FitOverCubes", options, chain, from, to);
   const bool layered = cubes->GetCellData()->GetArray("Patch")->GetRange()[1] >= 0.0;
   part.Domain = layered ? "LayeredCubes" : "Cubes";
   return part;
@@ -237,6 +284,44 @@ FittedPart FitOverDomain(const FilledDomains& domains, vtkImageData* image, cons
 double LastRms(vtkTable* rounds)
 {
   return rounds->GetValueByName(rounds->GetNumberOfRows() - 1, "RMS").ToDouble();
+}
+
+//------------------------------------------------------------------------------
+void AddRounds(const FittedPart& fitted, int segment, vtkTable* all)
+{
+  const char* names[] = { "Segment", "ControlPoints", "RMS", "MaximumError", "Seconds", "Range" };
+  if (all->GetNumberOfColumns() == 0)
+  {
+    for (const char* name : names)
+    {
+      vtkSmartPointer<vtkDataArray> column = vtkSmartPointer<vtkDoubleArray>::New();
+      if (name == names[0])
+      {
+        column = vtkSmartPointer<vtkIntArray>::New();
+      }
+      else if (name == names[1])
+      {
+        column = vtkSmartPointer<vtkIdTypeArray>::New();
+      }
+      column->SetName(name);
+      all->AddColumn(column);
+    }
+    vtkNew<vtkStringArray> domains;
+    domains->SetName("Domain");
+    all->AddColumn(domains);
+  }
+  for (vtkIdType row = 0; row < fitted.Rounds->GetNumberOfRows(); ++row)
+  {
+    for (const char* name : names)
+    {
+      vtkDataArray::SafeDownCast(all->GetColumnByName(name))
+        ->InsertNextTuple1(name == names[0] ? segment
+                           : name == names[5]
+                             ? fitted.Range
+                             : fitted.Rounds->GetValueByName(row, name).ToDouble());
+    }
+    vtkStringArray::SafeDownCast(all->GetColumnByName("Domain"))->InsertNextValue(fitted.Domain);
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -10,6 +10,7 @@
 
 #include "vtkSmartPointer.h"
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -39,9 +40,13 @@ struct FittedPart
 {
   TSplineModel Model;
   vtkSmartPointer<vtkTable> Rounds;
+  double Range = 0.0;   ///< of the array, of which the errors of Rounds are parts
   double Squares = 0.0; ///< sum of the squared errors of the round trip
   std::string Domain;   ///< SegmentBox, Cubes or LayeredCubes
 };
+
+/// Adds the rounds of a fit to those of all, under a label.
+void AddRounds(const FittedPart& fitted, int segment, vtkTable* all);
 
 /// The error that a fit ended with, in percent of the range of what it fitted.
 double LastRms(vtkTable* rounds);
@@ -51,16 +56,21 @@ double LastRms(vtkTable* rounds);
  * time is that of the `step`.
  * Throws as ChainStep does.
  */
-FittedPart RunFit(vtkTSplineFit* fit, const char* mask, int segment, const std::string& step,
+FittedPart RunFit(vtkTSplineFit* fit, const char* mask, const std::string& step,
   const SegmentFitOptions& options, Chain& chain, double from, double to);
 
+/// Sets of two or more segments, from `lowest` on and without folds, whose blocks have faces in
+/// common.
+std::vector<std::set<int>> TouchingSegments(const FilledDomains& domains, int lowest);
+
 /**
- * One segment over its blocks alone. `image` has the arrays to fit, Parameter and ParameterMask of
+ * Segments over their blocks alone. `image` has the arrays to fit, Parameter and ParameterMask of
  * the domains, and a mask of the voxels that count; its Parameter is changed to that of the blocks
- * alone. Throws as ChainStep does, and std::runtime_error where the segment is folded.
+ * alone. Throws as ChainStep does, and std::runtime_error where a segment is folded.
  */
 FittedPart FitOverDomain(const FilledDomains& domains, vtkImageData* image, const char* mask,
-  int segment, const SegmentFitOptions& options, Chain& chain, double from, double to);
+  const std::set<int>& segments, const SegmentFitOptions& options, Chain& chain, double from,
+  double to);
 
 /// How a spline stands for some voxels by its inverse map.
 struct PartErrors

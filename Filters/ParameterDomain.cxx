@@ -7,6 +7,7 @@
 #include "Parameter/ThinParts.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -98,42 +99,55 @@ void SolveSegments(const ImageSamples& samples, vtkPolyData* patches, const Grid
   }
 }
 
+// Places in the block mesh, each voxel's in the blocks of its own segment.
 void LocateVoxels(const ImageSamples& samples, const GridSpace& space, ParameterDomain& domain,
   const Execution& execution)
 {
-  const std::vector<int>& owners = domain.Input.Domain.Segments;
-  const std::set<int> segments(owners.begin(), owners.end());
+  std::map<int, std::vector<Index>> blocksOf, voxelsOf; // each segment
+  for (std::size_t b = 0; b < domain.Input.Domain.Segments.size(); ++b)
+  {
+    blocksOf[domain.Input.Domain.Segments[b]].push_back(static_cast<Index>(b));
+  }
   const Index count = samples.Count();
-  std::vector<Index> voxels;
-  std::vector<Vector3d> points;
   for (Index id = 0; id < count; ++id)
   {
-    if (segments.count(static_cast<int>(samples.Values[id])) != 0)
+    const int segment = static_cast<int>(samples.Values[id]);
+    if (blocksOf.count(segment) != 0)
+    {
+      voxelsOf[segment].push_back(id);
+    }
+  }
+  domain.Parameter.assign(3 * count, 0.0);
+  domain.Block.assign(count, -1);
+  domain.Mask.assign(count, 0);
+  double done = 0.0;
+  for (const auto& [segment, voxels] : voxelsOf)
+  {
+    std::vector<Vector3d> points;
+    for (const Index id : voxels)
     {
       const Index nx = samples.Points(0), ny = samples.Points(1);
       const Vector3d index(static_cast<double>(id % nx), static_cast<double>(id / nx % ny),
         static_cast<double>(id / (nx * ny)));
-      voxels.push_back(id);
       points.push_back(space.ToSpace(index.cwiseProduct(space.Spacing)));
     }
-  }
-  const std::vector<BlockLocation> locations =
-    LocateInBlocks(domain.Mesh, points, FarthestFromMesh * space.Spacing.maxCoeff(), execution);
-  domain.Parameter.assign(3 * count, 0.0);
-  domain.Block.assign(count, -1);
-  domain.Mask.assign(count, 0);
-  for (std::size_t v = 0; v < voxels.size(); ++v)
-  {
-    const BlockLocation& location = locations[v];
-    if (location.Block >= 0)
+    const double next = done + 1.0 / static_cast<double>(voxelsOf.size());
+    const std::vector<BlockLocation> locations = LocateInBlocks(domain.Mesh, blocksOf[segment],
+      points, FarthestFromMesh * space.Spacing.maxCoeff(), execution.Part(done, next));
+    done = next;
+    for (std::size_t v = 0; v < voxels.size(); ++v)
     {
-      const LatticePoint& origin = domain.Complex.Origins[location.Block];
-      for (int a = 0; a < 3; ++a)
+      const BlockLocation& location = locations[v];
+      if (location.Block >= 0)
       {
-        domain.Parameter[3 * voxels[v] + a] = origin[a] + location.Parameter[a];
+        const LatticePoint& origin = domain.Complex.Origins[location.Block];
+        for (int a = 0; a < 3; ++a)
+        {
+          domain.Parameter[3 * voxels[v] + a] = origin[a] + location.Parameter[a];
+        }
+        domain.Block[voxels[v]] = domain.Complex.Groups[location.Block];
+        domain.Mask[voxels[v]] = 1;
       }
-      domain.Block[voxels[v]] = domain.Complex.Groups[location.Block];
-      domain.Mask[voxels[v]] = 1;
     }
   }
 }

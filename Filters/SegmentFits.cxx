@@ -7,322 +7,435 @@
 #include "DomainSamples.h"
 #include "Fit/PointShares.h"
 #include "SMPExecution.h"
+#include "SegmentCut.h"
 #include "TSplineGrid.h"
 #include "vtkTSplineFit.h"
 
 #include "vtkDataArray.h"
-#include "vtkDoubleArray.h"
-#include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
-#include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkStringArray.h"
 #include "vtkTable.h"
-#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
-#include <map>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 
 namespace trivariate
 {
 namespace
 {
-constexpr const char* MaskName = "vtkSegmentMask";
 constexpr int FewestControlPoints = 64;
 constexpr double ShareOfShares = 0.02; // of the progress: to look what each segment needs
-constexpr double ShareOfBox = 0.2;     // of a segment's progress: the fit over its box
-constexpr double MostMissed = 0.02;    // of a segment's voxels by a spline over a domain
+constexpr double ShareOfBoxes = 0.2;   // of a unit's progress: the fits over boxes
+constexpr double ShareOfUnion = 0.5;   // of what is left then: several segments in one fit
+constexpr double ShareOfErrors = 0.1;  // of a fit over cubes: its errors
+constexpr double MostMissed = 0.02;    // of a unit's voxels by a spline over a domain
 
-using Extent = std::array<int, 6>;
+// Segments that are to be fitted at once, by the numbers of their parts: one, or several with
+// common faces.
+using Unit = std::vector<std::int32_t>;
 
-// A segment: where it is, and how its values range.
-struct Part
+struct Limits
 {
-  std::int32_t Label;
-  Extent Box;
-  double Low, High;
+  int ControlPoints;
+  double From, To; // of the progress
 };
 
 //------------------------------------------------------------------------------
-// Parts by ascending label, and the number of its part for each voxel.
-std::vector<Part> FindParts(
-  vtkImageData* image, vtkDataArray* values, std::vector<std::int32_t>& partOf)
+class SegmentFitter
 {
-  vtkDataArray* labels = image->GetPointData()->GetArray("Segment");
-  std::map<std::int32_t, Part> parts;
-  const int* e = image->GetExtent();
-  vtkIdType voxel = 0;
-  for (int k = e[4]; k <= e[5]; ++k)
+public:
+  SegmentFitter(vtkImageData* image, const SegmentFitOptions& options, Chain& chain)
+    : Image(image)
+    , Options(options)
+    , Outer(chain)
+    , Values(image->GetPointData()->GetArray(options.Array.c_str()))
+    , Parts(FindParts(image, this->Values, this->PartOf))
+    , Fitted(this->Parts.size())
   {
-    for (int j = e[2]; j <= e[3]; ++j)
-    {
-      for (int i = e[0]; i <= e[1]; ++i, ++voxel)
-      {
-        const auto label = static_cast<std::int32_t>(labels->GetTuple1(voxel));
-        const double value = values->GetComponent(voxel, 0);
-        const Part fresh{ label, { i, i, j, j, k, k }, value, value };
-        Part& part = parts.emplace(label, fresh).first->second;
-        const int at[3] = { i, j, k };
-        for (int a = 0; a < 3; ++a)
-        {
-          part.Box[2 * a] = std::min(part.Box[2 * a], at[a]);
-          part.Box[2 * a + 1] = std::max(part.Box[2 * a + 1], at[a]);
-        }
-        part.Low = std::min(part.Low, value);
-        part.High = std::max(part.High, value);
-      }
-    }
+    this->Arrays.push_back(options.Array);
+    this->Arrays.insert(this->Arrays.end(), options.Further.begin(), options.Further.end());
+    const double* range = this->Values->GetRange(0);
+    this->Range = range[1] - range[0];
   }
-  std::vector<Part> list;
-  std::map<std::int32_t, std::int32_t> number;
-  for (auto& [label, part] : parts)
-  {
-    for (int a = 0; a < 3; ++a) // a volume has two points or more along each axis
-    {
-      if (part.Box[2 * a] == part.Box[2 * a + 1])
-      {
-        part.Box[2 * a] = std::min(part.Box[2 * a], e[2 * a + 1] - 1);
-        part.Box[2 * a + 1] = part.Box[2 * a] + 1;
-      }
-    }
-    number[label] = static_cast<std::int32_t>(list.size());
-    list.push_back(part);
-  }
-  partOf.resize(image->GetNumberOfPoints());
-  for (voxel = 0; voxel < image->GetNumberOfPoints(); ++voxel)
-  {
-    partOf[voxel] = number[static_cast<std::int32_t>(labels->GetTuple1(voxel))];
-  }
-  return list;
-}
 
-//------------------------------------------------------------------------------
-// Adds what an array has in a box of the image to the image that is the box.
-void AddCropped(vtkImageData* image, vtkDataArray* whole, vtkImageData* box)
-{
-  const auto array = vtk::TakeSmartPointer(whole->NewInstance());
-  array->SetName(whole->GetName());
-  array->SetNumberOfComponents(whole->GetNumberOfComponents());
-  array->SetNumberOfTuples(box->GetNumberOfPoints());
-  const int* e = box->GetExtent();
-  const vtkIdType row = e[1] - e[0] + 1;
-  vtkIdType to = 0;
-  for (int k = e[4]; k <= e[5]; ++k)
-  {
-    for (int j = e[2]; j <= e[3]; ++j, to += row)
-    {
-      int ijk[3] = { e[0], j, k };
-      array->InsertTuples(to, row, image->ComputePointId(ijk), whole);
-    }
-  }
-  box->GetPointData()->AddArray(array);
-}
+  /// Sentences for the user.
+  std::vector<std::string> Fit(double from, double to);
+  SegmentFits Join(vtkTable* rounds) const;
 
-//------------------------------------------------------------------------------
-// A part with the voxels that are its own.
-struct Cut
-{
-  vtkSmartPointer<vtkImageData> Image; // the part's box with the arrays to fit, and the mask
-  std::vector<vtkIdType> Voxels;       // of the whole image
+private:
+  struct CubesFit
+  {
+    std::vector<FittedPart> Fitted; // of each part of the unit
+    std::vector<vtkIdType> Missed;  // voxels that the spline does not pass through
+    double Error = 0.0;             // squared, of a voxel that is not missed
+    std::string Why;                // there is none; empty: there is one
+  };
+
+  std::vector<double> FindShares(double from, double to) const;
+  std::vector<Unit> FindUnits() const;
+  int Fewest(std::int32_t number) const;
+  std::vector<const FilledDomains*> DomainsOf(std::int32_t number) const;
+  SegmentFitOptions OptionsFor(const Part& part, int controlPoints) const;
+  FittedPart FitBox(std::int32_t number, const Limits& limits) const;
+  CubesFit FitCubes(const Unit& unit, const FilledDomains& domains, const Limits& limits) const;
+  std::string ImproveOverCubes(
+    const Unit& unit, const std::vector<const FilledDomains*>& candidates, const Limits& limits);
+  void FitUnit(const Unit& unit, const std::vector<int>& controlPoints, double from, double to);
+
+  vtkImageData* Image;
+  const SegmentFitOptions& Options;
+  Chain& Outer;
+  vtkDataArray* Values;
+  std::vector<std::int32_t> PartOf; // of each voxel
+  std::vector<Part> Parts;
+  std::vector<FittedPart> Fitted;  // of each part
+  std::vector<std::string> Arrays; // to fit
+  double Range;                    // of the first one over the whole image
+  std::vector<std::string> Warnings;
 };
 
-Cut CutOut(vtkImageData* image, const Part& part, std::int32_t number,
-  const std::vector<std::int32_t>& partOf, const SegmentFitOptions& options)
+//------------------------------------------------------------------------------
+std::vector<double> SegmentFitter::FindShares(double from, double to) const
 {
-  Cut cut{ vtkSmartPointer<vtkImageData>::New(), {} };
-  cut.Image->SetOrigin(image->GetOrigin());
-  cut.Image->SetSpacing(image->GetSpacing());
-  cut.Image->SetDirectionMatrix(image->GetDirectionMatrix());
-  cut.Image->SetExtent(const_cast<int*>(part.Box.data()));
-  AddCropped(image, image->GetPointData()->GetArray(options.Array.c_str()), cut.Image);
-  for (const std::string& name : options.Further)
+  std::vector<double> copy(this->Image->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < this->Image->GetNumberOfPoints(); ++i)
   {
-    AddCropped(image, image->GetPointData()->GetArray(name.c_str()), cut.Image);
+    copy[i] = this->Values->GetComponent(i, 0);
   }
-  vtkNew<vtkUnsignedCharArray> mask;
-  mask->SetName(MaskName);
-  mask->Allocate(cut.Image->GetNumberOfPoints());
-  for (int k = part.Box[4]; k <= part.Box[5]; ++k)
-  {
-    for (int j = part.Box[2]; j <= part.Box[3]; ++j)
-    {
-      int ijk[3] = { part.Box[0], j, k };
-      vtkIdType voxel = image->ComputePointId(ijk);
-      for (int i = part.Box[0]; i <= part.Box[1]; ++i, ++voxel)
-      {
-        mask->InsertNextValue(partOf[voxel] == number);
-        if (partOf[voxel] == number)
-        {
-          cut.Voxels.push_back(voxel);
-        }
-      }
-    }
-  }
-  cut.Image->GetPointData()->AddArray(mask);
-  return cut;
+  int size[3];
+  this->Image->GetDimensions(size);
+  return PointShares({ size[0], size[1], size[2] }, copy.data(), this->PartOf,
+    static_cast<int>(this->Parts.size()), SMPExecution(this->Outer.Filter, from, to));
 }
 
 //------------------------------------------------------------------------------
-FittedPart FitOverBox(const Cut& cut, const Part& part, const SegmentFitOptions& options,
-  Chain& chain, double from, double to)
+// Those that it is to be fitted over. The lowest label takes what others miss, and has none.
+std::vector<const FilledDomains*> SegmentFitter::DomainsOf(std::int32_t number) const
 {
+  std::vector<const FilledDomains*> found;
+  for (const FilledDomains& domains : this->Options.Domains)
+  {
+    if (number > 0 && domains.BlocksOf.count(this->Parts[number].Label) > 0)
+    {
+      found.push_back(&domains);
+    }
+  }
+  return found;
+}
+
+//------------------------------------------------------------------------------
+// Those with common faces in the first domains, and all others by themselves.
+std::vector<Unit> SegmentFitter::FindUnits() const
+{
+  std::vector<Unit> units;
+  std::vector<char> isTaken(this->Parts.size(), 0);
+  if (!this->Options.Domains.empty() && this->Parts.size() > 1)
+  {
+    for (const std::set<int>& team :
+      TouchingSegments(this->Options.Domains.front(), this->Parts[1].Label))
+    {
+      Unit unit;
+      for (std::size_t p = 1; p < this->Parts.size(); ++p)
+      {
+        if (team.count(this->Parts[p].Label) > 0)
+        {
+          unit.push_back(static_cast<std::int32_t>(p));
+          isTaken[p] = 1;
+        }
+      }
+      units.push_back(unit);
+    }
+  }
+  for (std::size_t p = 0; p < this->Parts.size(); ++p)
+  {
+    if (!isTaken[p])
+    {
+      units.push_back({ static_cast<std::int32_t>(p) });
+    }
+  }
+  return units;
+}
+
+//------------------------------------------------------------------------------
+// Over a domain that is wanted every block needs some.
+int SegmentFitter::Fewest(std::int32_t number) const
+{
+  int blocks = 1;
+  for (const FilledDomains& domains : this->Options.Domains)
+  {
+    const auto domain = domains.BlocksOf.find(this->Parts[number].Label);
+    const bool isWanted = !this->Options.Compared && domain != domains.BlocksOf.end();
+    blocks = std::max(blocks, isWanted ? domain->second : 1);
+  }
+  return FewestControlPoints * blocks;
+}
+
+//------------------------------------------------------------------------------
+SegmentFitOptions SegmentFitter::OptionsFor(const Part& part, int controlPoints) const
+{
+  SegmentFitOptions own = this->Options;
+  own.MaximumControlPoints = controlPoints;
+  const double range = part.High - part.Low;
+  own.RmsTolerance = range > 0.0 ? std::min(100.0, own.RmsTolerance * this->Range / range) : 0.0;
+  return own;
+}
+
+//------------------------------------------------------------------------------
+FittedPart SegmentFitter::FitBox(std::int32_t number, const Limits& limits) const
+{
+  const Part& part = this->Parts[number];
+  const Cut cut = CutOut(this->Image, this->Parts, { number }, this->PartOf, this->Arrays);
   vtkNew<vtkTSplineFit> fit;
   fit->SetInputData(cut.Image);
-  FittedPart fitted = RunFit(fit, MaskName, part.Label, "FitOverBox", options, chain, from, to);
+  FittedPart fitted = RunFit(fit, CutMaskName, "FitOverBox",
+    this->OptionsFor(part, limits.ControlPoints), this->Outer, limits.From, limits.To);
+  fitted.Model.Segment.assign(fitted.Model.Spline.Size(), part.Label);
   // Its geometry is affine: the error of the round trip is that of the fit.
-  const double range = part.High - part.Low;
-  const double rms = range > 0.0 ? LastRms(fitted.Rounds) / 100.0 * range : 0.0;
+  fitted.Range = part.High - part.Low;
+  const double rms = fitted.Range > 0.0 ? LastRms(fitted.Rounds) / 100.0 * fitted.Range : 0.0;
   fitted.Squares = rms * rms * static_cast<double>(cut.Voxels.size());
   fitted.Domain = "SegmentBox";
   return fitted;
 }
 
 //------------------------------------------------------------------------------
-struct CubesFit
-{
-  FittedPart Fitted;
-  std::vector<vtkIdType> Missed; // voxels that the spline does not pass through
-  std::string Why;               // there is none; empty: there is one
-};
-
-CubesFit FitCubes(vtkImageData* image, const Cut& cut, const Part& part,
-  const FilledDomains& domains, const SegmentFitOptions& options, Chain& chain, double from,
-  double to)
+SegmentFitter::CubesFit SegmentFitter::FitCubes(
+  const Unit& unit, const FilledDomains& domains, const Limits& limits) const
 {
   CubesFit cubes;
+  const Part whole = UniteParts(this->Parts, unit);
+  const Cut cut = CutOut(this->Image, this->Parts, unit, this->PartOf, this->Arrays);
   for (const char* name : { ParameterArrayName, ParameterMaskName })
   {
     AddCropped(domains.Fields, domains.Fields->GetPointData()->GetArray(name), cut.Image);
   }
-  const double fitted = to - 0.1 * (to - from);
+  std::set<int> labels;
+  for (const std::int32_t number : unit)
+  {
+    labels.insert(this->Parts[number].Label);
+  }
+  double at = limits.To - ShareOfErrors * (limits.To - limits.From);
+  FittedPart fitted;
   try
   {
-    cubes.Fitted =
-      FitOverDomain(domains, cut.Image, MaskName, part.Label, options, chain, from, fitted);
+    fitted = FitOverDomain(domains, cut.Image, CutMaskName, labels,
+      this->OptionsFor(whole, limits.ControlPoints), this->Outer, limits.From, at);
   }
   catch (const std::runtime_error& reason)
   {
     cubes.Why = reason.what();
     return cubes;
   }
-  PartErrors errors =
-    MeasurePart(image, options.Array, cubes.Fitted.Model, cut.Voxels, chain, fitted, to);
-  cubes.Fitted.Squares = errors.Squares;
-  cubes.Missed = std::move(errors.Missed);
-  if (double(cubes.Missed.size()) > MostMissed * double(cut.Voxels.size()))
+  fitted.Range = whole.High - whole.Low;
+  const auto all = static_cast<double>(cut.Voxels.size());
+  double squares = 0.0;
+  for (const std::int32_t number : unit)
   {
-    cubes.Why = "the spline over its cubes misses " + std::to_string(cubes.Missed.size()) + " of " +
+    FittedPart& part = cubes.Fitted.emplace_back(fitted);
+    part.Model = SegmentPart(fitted.Model, this->Parts[number].Label);
+    std::vector<vtkIdType> voxels;
+    std::copy_if(cut.Voxels.begin(), cut.Voxels.end(), std::back_inserter(voxels),
+      [&](vtkIdType voxel) { return this->PartOf[voxel] == number; });
+    const double next = at + (limits.To - at) * static_cast<double>(voxels.size()) / all;
+    const PartErrors errors =
+      MeasurePart(this->Image, this->Options.Array, part.Model, voxels, this->Outer, at, next);
+    at = next;
+    part.Squares = errors.Squares;
+    squares += errors.Squares;
+    cubes.Missed.insert(cubes.Missed.end(), errors.Missed.begin(), errors.Missed.end());
+  }
+  const auto missed = static_cast<double>(cubes.Missed.size());
+  cubes.Error = squares / (all - missed);
+  if (missed > MostMissed * all)
+  {
+    cubes.Why = "the spline over cubes misses " + std::to_string(cubes.Missed.size()) + " of " +
                 std::to_string(cut.Voxels.size()) + " voxels.";
   }
   return cubes;
 }
 
 //------------------------------------------------------------------------------
-// The fit over the box, and `why` it is that one; or that over cubes if it is better, and the
-// voxels that it misses, which are those of part 0 then.
-FittedPart FitPart(vtkImageData* image, const Part& part, std::int32_t number,
-  const SegmentFitOptions& options, Chain& chain, double from, double to,
-  std::vector<std::int32_t>& partOf, std::string& why)
+// Takes the best fit of a unit over cubes in place of what there is for its parts, if that is less
+// accurate; voxels that it misses then are those of part 0. Says why there is none.
+std::string SegmentFitter::ImproveOverCubes(
+  const Unit& unit, const std::vector<const FilledDomains*>& candidates, const Limits& limits)
 {
-  const Cut cut = CutOut(image, part, number, partOf, options);
-  std::vector<const FilledDomains*> candidates;
-  for (const FilledDomains& domains : options.Domains)
-  {
-    if (number > 0 && domains.BlocksOf.count(part.Label) > 0)
-    {
-      candidates.push_back(&domains);
-    }
-  }
-  if (candidates.empty())
-  {
-    return FitOverBox(cut, part, options, chain, from, to);
-  }
-  const double boxed = from + ShareOfBox * (to - from);
-  const double each = (to - boxed) / static_cast<double>(candidates.size());
-  const auto all = static_cast<double>(cut.Voxels.size());
   double least = std::numeric_limits<double>::infinity(); // squared error of a voxel
-  FittedPart best;
-  std::vector<vtkIdType> missed;
-  bool overCubes = false;
-  if (options.Compared)
+  if (this->Fitted[unit.front()].Rounds)
   {
-    best = FitOverBox(cut, part, options, chain, from, boxed);
-    least = best.Squares / all;
+    double squares = 0.0, voxels = 0.0;
+    for (const std::int32_t number : unit)
+    {
+      squares += this->Fitted[number].Squares;
+      voxels += static_cast<double>(std::count(this->PartOf.begin(), this->PartOf.end(), number));
+    }
+    least = squares / voxels;
   }
+  const double each = (limits.To - limits.From) / static_cast<double>(candidates.size());
+  std::vector<vtkIdType> missed;
+  bool isOverCubes = false;
+  std::string why;
   for (std::size_t i = 0; i < candidates.size(); ++i)
   {
-    const double begin = boxed + each * static_cast<double>(i);
+    const double begin = limits.From + each * static_cast<double>(i);
     CubesFit cubes =
-      FitCubes(image, cut, part, *candidates[i], options, chain, begin, begin + each);
-    const double error = cubes.Fitted.Squares / (all - static_cast<double>(cubes.Missed.size()));
-    if (cubes.Why.empty() && error >= least)
+      this->FitCubes(unit, *candidates[i], { limits.ControlPoints, begin, begin + each });
+    if (cubes.Why.empty() && cubes.Error >= least)
     {
-      cubes.Why = "with as many control points that is more accurate than its cubes.";
+      cubes.Why = "boxes are more accurate with as many control points.";
     }
     if (cubes.Why.empty())
     {
-      best = std::move(cubes.Fitted);
+      for (std::size_t n = 0; n < unit.size(); ++n)
+      {
+        this->Fitted[unit[n]] = std::move(cubes.Fitted[n]);
+      }
       missed = std::move(cubes.Missed);
-      least = error;
-      overCubes = true;
+      least = cubes.Error;
+      isOverCubes = true;
     }
     why = why.empty() ? cubes.Why : why;
   }
-  why = overCubes ? "" : why;
-  if (!best.Rounds)
-  {
-    return FitOverBox(cut, part, options, chain, to, to);
-  }
   for (const vtkIdType voxel : missed)
   {
-    partOf[voxel] = 0;
+    this->PartOf[voxel] = 0;
   }
-  return best;
+  return isOverCubes ? "" : why;
 }
 
 //------------------------------------------------------------------------------
-void AddRounds(const FittedPart& fitted, const Part& part, vtkTable* all)
+// Each over its box; all together over their cubes if that is better; or else each over its own.
+void SegmentFitter::FitUnit(
+  const Unit& unit, const std::vector<int>& controlPoints, double from, double to)
 {
-  const char* names[] = { "Segment", "ControlPoints", "RMS", "MaximumError", "Seconds", "Range" };
-  if (all->GetNumberOfColumns() == 0)
+  const auto domains = this->DomainsOf(unit.front());
+  const double boxed = domains.empty() ? to : from + ShareOfBoxes * (to - from);
+  const double perBox = (boxed - from) / static_cast<double>(unit.size());
+  for (std::size_t n = 0; n < unit.size() && (domains.empty() || this->Options.Compared); ++n)
   {
-    for (const char* name : names)
-    {
-      vtkSmartPointer<vtkDataArray> column = vtkSmartPointer<vtkDoubleArray>::New();
-      if (name == names[0])
-      {
-        column = vtkSmartPointer<vtkIntArray>::New();
-      }
-      else if (name == names[1])
-      {
-        column = vtkSmartPointer<vtkIdTypeArray>::New();
-      }
-      column->SetName(name);
-      all->AddColumn(column);
-    }
-    vtkNew<vtkStringArray> domains;
-    domains->SetName("Domain");
-    all->AddColumn(domains);
+    const double begin = from + perBox * static_cast<double>(n);
+    this->Fitted[unit[n]] = this->FitBox(unit[n], { controlPoints[n], begin, begin + perBox });
   }
-  for (vtkIdType row = 0; row < fitted.Rounds->GetNumberOfRows(); ++row)
+  double at = boxed;
+  if (unit.size() > 1)
   {
-    for (const char* name : names)
+    at = boxed + ShareOfUnion * (to - boxed);
+    const int all = std::accumulate(controlPoints.begin(), controlPoints.end(), 0);
+    const std::string why = this->ImproveOverCubes(unit, { domains.front() }, { all, boxed, at });
+    if (why.empty())
     {
-      vtkDataArray::SafeDownCast(all->GetColumnByName(name))
-        ->InsertNextTuple1(name == names[0] ? part.Label
-                           : name == names[5]
-                             ? part.High - part.Low
-                             : fitted.Rounds->GetValueByName(row, name).ToDouble());
+      return;
     }
-    vtkStringArray::SafeDownCast(all->GetColumnByName("Domain"))->InsertNextValue(fitted.Domain);
+    std::string labels;
+    for (const std::int32_t number : unit)
+    {
+      labels += (labels.empty()           ? ""
+                  : number == unit.back() ? " and "
+                                          : ", ") +
+                std::to_string(this->Parts[number].Label);
+    }
+    this->Warnings.push_back(
+      "Segments " + labels + " are not fitted together over common faces: " + why);
   }
+  const double perPart = (to - at) / static_cast<double>(unit.size());
+  for (std::size_t n = 0; n < unit.size(); ++n)
+  {
+    const double begin = at + perPart * static_cast<double>(n);
+    const auto own = this->DomainsOf(unit[n]);
+    const std::string why =
+      this->ImproveOverCubes({ unit[n] }, own, { controlPoints[n], begin, begin + perPart });
+    if (!why.empty())
+    {
+      this->Warnings.push_back("Segment " + std::to_string(this->Parts[unit[n]].Label) +
+                               " is fitted over its bounding box: " + why);
+    }
+    if (!this->Fitted[unit[n]].Rounds)
+    {
+      this->Fitted[unit[n]] =
+        this->FitBox(unit[n], { controlPoints[n], begin + perPart, begin + perPart });
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+std::vector<std::string> SegmentFitter::Fit(double from, double to)
+{
+  const std::vector<double> shares = this->FindShares(from, from + ShareOfShares);
+  std::vector<Unit> units = this->FindUnits();
+  const auto shareOf = [&shares](const Unit& unit)
+  {
+    return std::accumulate(unit.begin(), unit.end(), 0.0,
+      [&shares](double sum, std::int32_t number) { return sum + shares[number]; });
+  };
+  // Those with a small share first, the lowest label last: it gets the voxels that others miss.
+  std::stable_sort(units.begin(), units.end(),
+    [&shareOf](const Unit& a, const Unit& b)
+    {
+      return a.front() == 0 || b.front() == 0 ? b.front() == 0 && a.front() != 0
+                                              : shareOf(a) < shareOf(b);
+    });
+  double left = this->Options.MaximumControlPoints, open = 1.0, reserved = 0.0;
+  for (std::size_t p = 0; p < this->Parts.size(); ++p)
+  {
+    reserved += this->Fewest(static_cast<std::int32_t>(p));
+  }
+  double at = from + ShareOfShares;
+  const double width = to - at;
+  for (const Unit& unit : units)
+  {
+    // As many as their shares, but those after them must have some.
+    for (const std::int32_t number : unit)
+    {
+      reserved -= this->Fewest(number);
+    }
+    const double most = left - reserved;
+    std::vector<int> controlPoints;
+    for (const std::int32_t number : unit)
+    {
+      const double wanted = open > 0.0 ? std::min(most, left * shares[number] / open) : most;
+      controlPoints.push_back(std::max(this->Fewest(number), static_cast<int>(wanted)));
+    }
+    const double share = shareOf(unit);
+    this->FitUnit(unit, controlPoints, at, at + width * share);
+    at += width * share;
+    open -= share;
+    for (const std::int32_t number : unit)
+    {
+      left -= static_cast<double>(this->Fitted[number].Model.Spline.Size());
+    }
+  }
+  return std::move(this->Warnings);
+}
+
+//------------------------------------------------------------------------------
+SegmentFits SegmentFitter::Join(vtkTable* rounds) const
+{
+  SegmentFits whole{ {}, 0.0 };
+  double squares = 0.0;
+  for (std::size_t p = 0; p < this->Parts.size(); ++p)
+  {
+    whole.Model = JoinParts(whole.Model, this->Fitted[p].Model);
+    squares += this->Fitted[p].Squares;
+    AddRounds(this->Fitted[p], this->Parts[p].Label, rounds);
+  }
+  vtkDataArray* labels = this->Image->GetPointData()->GetArray("Segment");
+  for (vtkIdType voxel = 0; voxel < this->Image->GetNumberOfPoints(); ++voxel)
+  {
+    labels->SetTuple1(voxel, this->Parts[this->PartOf[voxel]].Label);
+  }
+  if (this->Range > 0.0)
+  {
+    const auto voxels = static_cast<double>(this->Image->GetNumberOfPoints());
+    whole.RmsPercent = 100.0 * std::sqrt(squares / voxels) / this->Range;
+  }
+  return whole;
 }
 }
 
@@ -330,95 +443,8 @@ void AddRounds(const FittedPart& fitted, const Part& part, vtkTable* all)
 SegmentFits FitSegments(vtkImageData* image, const SegmentFitOptions& options, vtkTable* rounds,
   std::vector<std::string>& why, Chain& chain, double from, double to)
 {
-  vtkDataArray* values = image->GetPointData()->GetArray(options.Array.c_str());
-  std::vector<std::int32_t> partOf;
-  const std::vector<Part> parts = FindParts(image, values, partOf);
-  std::vector<double> shares;
-  {
-    std::vector<double> copy(image->GetNumberOfPoints());
-    for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
-    {
-      copy[i] = values->GetComponent(i, 0);
-    }
-    int size[3];
-    image->GetDimensions(size);
-    shares = PointShares({ size[0], size[1], size[2] }, copy.data(), partOf,
-      static_cast<int>(parts.size()), SMPExecution(chain.Filter, from, from + ShareOfShares));
-  }
-  double low = parts.front().Low, high = parts.front().High;
-  for (const Part& part : parts)
-  {
-    low = std::min(low, part.Low);
-    high = std::max(high, part.High);
-  }
-
-  // Those with a small share first, the lowest label last: it gets the voxels that others miss.
-  std::vector<std::size_t> order(parts.size());
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  std::stable_sort(order.begin(), order.end(),
-    [&shares](std::size_t a, std::size_t b)
-    { return a == 0 || b == 0 ? b == 0 && a != 0 : shares[a] < shares[b]; });
-  const auto fewest = [&options, &parts](std::size_t p)
-  {
-    // Over a domain that is wanted every block needs some.
-    int blocks = 1;
-    for (const FilledDomains& domains : options.Domains)
-    {
-      const auto domain = domains.BlocksOf.find(parts[p].Label);
-      const bool wanted = !options.Compared && domain != domains.BlocksOf.end();
-      blocks = std::max(blocks, wanted ? domain->second : 1);
-    }
-    return FewestControlPoints * blocks;
-  };
-  double left = options.MaximumControlPoints, open = 1.0, done = 0.0, reserved = 0.0;
-  for (const std::size_t p : order)
-  {
-    reserved += fewest(p);
-  }
-  std::vector<FittedPart> fitted(parts.size());
-  for (const std::size_t p : order)
-  {
-    const auto number = static_cast<std::int32_t>(p);
-    SegmentFitOptions own = options;
-    // As many as its share, but those after it must have some.
-    reserved -= fewest(p);
-    const double most = left - reserved;
-    const double wanted = open > 0.0 ? std::min(most, left * shares[p] / open) : most;
-    own.MaximumControlPoints = std::max(fewest(p), static_cast<int>(wanted));
-    const double range = parts[p].High - parts[p].Low;
-    own.RmsTolerance =
-      range > 0.0 ? std::min(100.0, options.RmsTolerance * (high - low) / range) : 0.0;
-    const double begin = from + ShareOfShares + (to - from - ShareOfShares) * done;
-    const double end = begin + (to - from - ShareOfShares) * shares[p];
-    std::string reason;
-    fitted[p] = FitPart(image, parts[p], number, own, chain, begin, end, partOf, reason);
-    if (!reason.empty())
-    {
-      why.push_back("Segment " + std::to_string(parts[p].Label) +
-                    " is fitted over its bounding box: " + reason);
-    }
-    done += shares[p];
-    left -= static_cast<double>(fitted[p].Model.Spline.Size());
-    open -= shares[p];
-  }
-  SegmentFits whole{ {}, 0.0 };
-  double squares = 0.0;
-  for (std::size_t p = 0; p < parts.size(); ++p)
-  {
-    whole.Model = JoinParts(whole.Model, fitted[p].Model);
-    squares += fitted[p].Squares;
-    AddRounds(fitted[p], parts[p], rounds);
-  }
-  vtkDataArray* labels = image->GetPointData()->GetArray("Segment");
-  for (vtkIdType voxel = 0; voxel < image->GetNumberOfPoints(); ++voxel)
-  {
-    labels->SetTuple1(voxel, parts[partOf[voxel]].Label);
-  }
-  if (high > low)
-  {
-    const auto voxels = static_cast<double>(image->GetNumberOfPoints());
-    whole.RmsPercent = 100.0 * std::sqrt(squares / voxels) / (high - low);
-  }
-  return whole;
+  SegmentFitter fitter(image, options, chain);
+  why = fitter.Fit(from, to);
+  return fitter.Join(rounds);
 }
 }

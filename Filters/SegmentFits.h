@@ -37,15 +37,16 @@ struct SegmentFits
 
 /**
  * Fits the voxels of each label in the point array Segment over the label's bounding box, the
- * others masked; and those with domains also over their cubes with as many control points. The
- * best one by the round trip is kept, or where they are not compared that over the cubes if it
- * misses few voxels; `why` says for each label with a domain why it is the box. Voxels that the
- * spline over a domain misses get the lowest label.
+ * others masked; and those with domains also over their cubes with as many control points. Labels
+ * whose blocks have faces in common are fitted together, so that there is no gap between them, or
+ * where all boxes are better each by itself. The best one by the round trip is kept, or where they
+ * are not compared that over the cubes if it misses few voxels; `why` says for each label with a
+ * domain why it is the box. Voxels that the spline over a domain misses get the lowest label.
  *
  * Control points are shared out by PointShares; what a segment leaves when it meets the tolerance
  * goes to those after it, those with small shares first. The rounds of all fits go to the table,
- * with a column Segment. Progress, abort and messages are those of `chain`, from `from` to `to`.
- * Throws as ChainStep does.
+ * with a column Segment; labels that are fitted together have the same ones. Progress, abort and
+ * messages are those of `chain`, from `from` to `to`. Throws as ChainStep does.
  */
 SegmentFits FitSegments(vtkImageData* image, const SegmentFitOptions& options, vtkTable* rounds,
   std::vector<std::string>& why, Chain& chain, double from, double to);

@@ -14,8 +14,10 @@
  * other segments masked. With Domain AUTOMATIC every segment for which vtkPolycubeDomain finds a
  * domain is fitted again, over its cubes with layers and without (vtkFrameField,
  * vtkVolumeParameterization), with as many control points, and what is most accurate in the round
- * trip is kept; then one spline is fitted over the whole image, and if it is more accurate than all
- * segments together (or, where both meet the tolerance, has fewer control points), it is the
+ * trip is kept. Segments whose domains share a surface, one around another or side by side, are
+ * fitted over it together: there is no gap between them, while attributes jump; where boxes are
+ * more accurate for them, or one has folds, each is fitted by itself. Then one spline is fitted
+ * over the whole image, and if it is more accurate than all segments together (or, where both meet the tolerance, has fewer control points), it is the
  * result, and a warning says so. With Domain GIVEN the segments with a domain in the second input
  * are fitted over that. A warning tells why a segment with a domain stays with its box: half or
  * more of the blocks that were found are inverted between their corners, folds, voxels that are
@@ -38,7 +40,8 @@
  * Port 0: the T-spline grid; the control points' arrays Segment and Block tell whose they are.
  * Port 1: vtkTable, the rounds of all fits, with the columns of vtkTSplineFit; and, but not of
  * one spline over the whole image, Segment, Range (double, of the array in the segment, of which
- * RMS and MaximumError are parts) and Domain (string: SegmentBox, Cubes or LayeredCubes). Field
+ * RMS and MaximumError are parts) and Domain (string: SegmentBox, Cubes or LayeredCubes); segments
+ * that are fitted together have the same rounds, with the range of both and all their points. Field
  * data: Step (string) and StepSeconds (double), where the time went: the names of the filters
  * without "vtk", FitOverBox and FitOverCubes.
  * Unless Domain is BOX also:

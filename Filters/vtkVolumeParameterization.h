@@ -31,8 +31,8 @@
  *
  * @par Output
  * Port 0: the image with the point arrays
- * - Parameter (double x 3): (u, v, w) in the block mesh, in the space in which every block is a
- * unit cube, see Block; zero where there is none;
+ * - Parameter (double x 3): (u, v, w) in the block mesh of the voxel's own segment, in the space in
+ * which every block is a unit cube, see Block; zero where there is none;
  * - ParameterMask (uint8): 1 in the segments of the domain; 0 elsewhere, and where the mesh is more
  *   than 1.5 voxels away;
  * - Block (int32): the group of cubes that shares one (u, v, w) grid, -1 where the mask is 0;

@@ -141,7 +141,7 @@ Vector3d CellMap::Nearest(const Vector3d& p) const
 class CellTree
 {
 public:
-  explicit CellTree(const BlockMesh& mesh);
+  CellTree(const BlockMesh& mesh, const std::vector<Index>& blocks);
 
   BlockLocation Nearest(const Vector3d& p, double farthest) const;
 
@@ -163,16 +163,15 @@ private:
   std::vector<Node> Nodes;
 };
 
-CellTree::CellTree(const BlockMesh& mesh)
+CellTree::CellTree(const BlockMesh& mesh, const std::vector<Index>& blocks)
   : Mesh(mesh)
 {
-  for (std::size_t b = 0; b < mesh.Sizes.size(); ++b)
+  for (const Index b : blocks)
   {
     const std::array<int, 3>& n = mesh.Sizes[b];
     for (Index i = 0; i < Index(n[0]) * n[1] * n[2]; ++i)
     {
-      this->Cells.push_back(
-        { static_cast<Index>(b), { int(i % n[0]), int(i / n[0] % n[1]), int(i / n[0] / n[1]) } });
+      this->Cells.push_back({ b, { int(i % n[0]), int(i / n[0] % n[1]), int(i / n[0] / n[1]) } });
     }
   }
   this->Split(0, static_cast<Index>(this->Cells.size()));
@@ -290,10 +289,10 @@ void CellTree::Compare(Index number, const Vector3d& p, BlockLocation& best) con
 }
 
 //------------------------------------------------------------------------------
-std::vector<BlockLocation> LocateInBlocks(const BlockMesh& mesh,
+std::vector<BlockLocation> LocateInBlocks(const BlockMesh& mesh, const std::vector<Index>& blocks,
   const std::vector<Vector3d>& points, double farthest, const Execution& execution)
 {
-  const CellTree tree(mesh);
+  const CellTree tree(mesh, blocks);
   std::vector<BlockLocation> found(points.size());
   const Index n = static_cast<Index>(points.size());
   for (Index from = 0; from < n; from += BetweenChecks)

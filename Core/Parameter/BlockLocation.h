@@ -17,11 +17,11 @@ struct BlockLocation
 };
 
 /**
- * The block of each point and its parameter there, in [0, 1]^3. Inside of the mesh a cell whose
- * trilinear map reaches the point; outside, up to `farthest`, the nearest place that was found on
- * the cells near the point. O(n log n), the same whatever the number of threads.
+ * The block of each point, one of `blocks`, and its parameter there, in [0, 1]^3. Inside of the
+ * blocks a cell whose trilinear map reaches the point; outside, up to `farthest`, the nearest place
+ * that was found on the cells near the point. O(n log n), the same whatever the number of threads.
  */
-std::vector<BlockLocation> LocateInBlocks(const BlockMesh& mesh,
+std::vector<BlockLocation> LocateInBlocks(const BlockMesh& mesh, const std::vector<Index>& blocks,
   const std::vector<Eigen::Vector3d>& points, double farthest, const Execution& execution);
 
 /// x(u, v, w), trilinear in the cell of the parameter, which is in the unit cube of the block.

@@ -59,7 +59,7 @@ TEST(BlockLocation, InvertsTheMapOfTheMesh)
     parameters.push_back(t);
     points.push_back(PlaceInBlock(mesh, blocks.back(), t));
   }
-  const std::vector<BlockLocation> found = LocateInBlocks(mesh, points, 0.1, Execution());
+  const std::vector<BlockLocation> found = LocateInBlocks(mesh, { 0, 1 }, points, 0.1, Execution());
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     ASSERT_GE(found[i].Block, 0);
@@ -75,7 +75,7 @@ TEST(BlockLocation, InvertsTheMapOfTheMesh)
     }
   }
   const std::vector<BlockLocation> threaded =
-    LocateInBlocks(mesh, points, 0.1, ThreadedExecution(3));
+    LocateInBlocks(mesh, { 0, 1 }, points, 0.1, ThreadedExecution(3));
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     EXPECT_EQ(threaded[i].Block, found[i].Block);
@@ -88,7 +88,7 @@ TEST(BlockLocation, TakesTheNearestPlaceOutside)
   const BlockMesh mesh = QuarterRing(8);
   const std::vector<Vector3d> points{ { 1.0, 1.0, 1.2 }, { -0.1, 1.5, 0.5 }, { 1.5, -0.2, -0.2 },
     { 0.0, 0.0, 0.5 }, { 1.7, 1.7, 0.5 } };
-  const std::vector<BlockLocation> near = LocateInBlocks(mesh, points, 0.3, Execution());
+  const std::vector<BlockLocation> near = LocateInBlocks(mesh, { 0, 1 }, points, 0.3, Execution());
   EXPECT_NEAR(near[0].Distance, 0.2, 1e-9);
   EXPECT_EQ(near[1].Block, 0);
   EXPECT_NEAR(near[1].Distance, 0.1, 1e-9);
@@ -98,4 +98,12 @@ TEST(BlockLocation, TakesTheNearestPlaceOutside)
   EXPECT_NEAR(near[2].Distance, 0.2 * std::sqrt(2.0), 1e-9);
   EXPECT_EQ(near[3].Block, -1); // 1 away
   EXPECT_EQ(near[4].Block, -1); // 0.4 away
+
+  // Of block 0 alone: its end, next to a place in block 1.
+  const Vector3d place = PlaceInBlock(mesh, 1, { 0.6, 0.4, 0.05 });
+  const BlockLocation other = LocateInBlocks(mesh, { 0 }, { place }, 1.0, Execution())[0];
+  EXPECT_EQ(other.Block, 0);
+  EXPECT_NEAR(other.Parameter[0], 1.0, 1e-9);
+  EXPECT_GT(other.Distance, 0.01);
+  EXPECT_NEAR(other.Distance, (PlaceInBlock(mesh, 0, other.Parameter) - place).norm(), 1e-9);
 }

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The segments of a labelled image, and images of some of them alone.
+ */
+#ifndef SegmentCut_h
+#define SegmentCut_h
+
+#include "vtkImageData.h"
+#include "vtkSmartPointer.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+class vtkDataArray;
+
+namespace trivariate
+{
+/// A segment, or several: where it is, and how its values range.
+struct Part
+{
+  std::int32_t Label; ///< of several the first
+  std::array<int, 6> Box;
+  double Low, High;
+};
+
+/// Parts by ascending label in the point array Segment, and the number of its part for each voxel.
+std::vector<Part> FindParts(
+  vtkImageData* image, vtkDataArray* values, std::vector<std::int32_t>& partOf);
+
+/// Some parts as one.
+Part UniteParts(const std::vector<Part>& parts, const std::vector<std::int32_t>& numbers);
+
+/// Adds what an array has in a box of the image to the image that is the box.
+void AddCropped(vtkImageData* image, vtkDataArray* whole, vtkImageData* box);
+
+/// The point array of a cut that tells its own voxels.
+constexpr const char* CutMaskName = "vtkSegmentMask";
+
+/// Parts with the voxels that are their own.
+struct Cut
+{
+  vtkSmartPointer<vtkImageData> Image; ///< the box with the arrays, and the mask
+  std::vector<vtkIdType> Voxels;       ///< of the whole image
+};
+
+/// Some parts with `arrays`.
+Cut CutOut(vtkImageData* image, const std::vector<Part>& parts,
+  const std::vector<std::int32_t>& numbers, const std::vector<std::int32_t>& partOf,
+  const std::vector<std::string>& arrays);
+}
+
+#endif
