@@ -22,37 +22,77 @@ constexpr int ProjectionIterations = 60;
 
 // What about is left when the attributes have followed, and each axis' share.
 constexpr double LeftOver = 0.3;
+
+std::vector<Index> ChooseFew(const ScatteredSystem& attributes, Index all, Index ofPoint)
+{
+  const Index enough = ofPoint * attributes.Points().Count();
+  return attributes.EveryOnce(std::max<Index>(1, all / enough));
+}
+
+ScatteredSamples Choose(const ScatteredSamples& samples, const std::vector<Index>& few)
+{
+  ScatteredSamples chosen;
+  for (const Index i : few)
+  {
+    const double* parameters = &samples.Parameters[3 * i];
+    chosen.Parameters.insert(chosen.Parameters.end(), parameters, parameters + 3);
+  }
+  const double count = static_cast<double>(samples.Count()) / static_cast<double>(few.size());
+  chosen.Weights.assign(few.size(), static_cast<float>(count));
+  return chosen;
+}
 }
 
 //------------------------------------------------------------------------------
 DataErrors::DataErrors(const TSpline& spline, const TSpline& shape, const BlockSpline& layout,
-  const ScatteredSamples& samples, const ScatteredSystem& attributes, const GramMatrix& gram,
+  const ScatteredSamples& samples, const ScatteredSystem& attributes,
   const std::vector<double>& ranges, const DataErrorOptions& options, const Execution& execution)
   : Run(execution)
   , Layout(layout)
   , Shape(shape)
-  , Attributes(attributes)
-  , Gram(gram)
-  , Ranges(ranges)
   , Weight(options.Weight)
   , Damping(options.Damping / (options.Spacing * options.Spacing))
-  , Voxels{ samples.Parameters, 0, {}, {} }
+  , Few(ChooseFew(attributes, samples.Count(), options.VoxelsOfPoint))
+  , Voxels(Choose(samples, this->Few))
+  , Attributes(this->Voxels, 3, layout, execution)
   , OfShape(this->Voxels, 0, layout, execution)
 {
+  const Gradients slopes =
+    FindSlopes(spline, attributes.Mesh(), samples, ranges, options.Spacing, execution);
+  Eigen::Matrix3Xd forces = Eigen::Matrix3Xd::Zero(3, samples.Count());
+  for (std::size_t c = 0; c < slopes.size(); ++c)
+  {
+    const std::vector<double> residuals = attributes.ResidualsOf(static_cast<int>(c));
+    for (Index i = 0; i < samples.Count(); ++i)
+    {
+      forces.col(i) += residuals[i] / ranges[c] * slopes[c].col(i);
+    }
+  }
+  const ScatteredSamples all{ samples.Parameters, 0, {}, {} };
+  ScatteredSystem ofShape(all, 0, layout, execution);
+  ofShape.Update(shape);
+  this->Gradient = this->Weight * ofShape.SumsOf(forces);
+
+  for (const Eigen::Matrix3Xd& slope : slopes)
+  {
+    this->Slopes.push_back(slope(Eigen::all, this->Few));
+  }
+  this->Attributes.Update(spline);
+  this->Gram = std::make_unique<GramMatrix>(this->Attributes.Assemble());
   this->OfShape.Update(shape);
-  this->FindSlopes(spline, samples, ranges, options.Spacing);
 }
 
 //------------------------------------------------------------------------------
-void DataErrors::FindSlopes(const TSpline& spline, const ScatteredSamples& samples,
-  const std::vector<double>& ranges, double spacing)
+DataErrors::Gradients DataErrors::FindSlopes(const TSpline& spline, const BezierMesh& mesh,
+  const ScatteredSamples& samples, const std::vector<double>& ranges, double spacing,
+  const Execution& execution)
 {
   const int columns = 3 + samples.Components;
   std::vector<int> components(columns);
   std::iota(components.begin(), components.end(), 0);
-  const Evaluator evaluator(spline, this->Attributes.Mesh(), components, this->Run);
-  const Index n = this->Count();
-  this->Slopes.assign(samples.Components, Eigen::Matrix3Xd(3, n));
+  const Evaluator evaluator(spline, mesh, components, execution);
+  const Index n = samples.Count();
+  Gradients slopes(samples.Components, Eigen::Matrix3Xd(3, n));
   constexpr Index Batch = 1 << 16; // points whose gradients are kept at a time
   std::vector<double> gradients;
   for (Index first = 0; first < n; first += Batch)
@@ -61,7 +101,7 @@ void DataErrors::FindSlopes(const TSpline& spline, const ScatteredSamples& sampl
     gradients.resize(3 * columns * count);
     EvaluatorOutput output;
     output.Gradients = gradients.data();
-    evaluator.Evaluate(count, &samples.Parameters[3 * first], output, this->Run);
+    evaluator.Evaluate(count, &samples.Parameters[3 * first], output, execution);
     for (Index i = 0; i < count; ++i)
     {
       const double* gradient = &gradients[3 * columns * i];
@@ -73,11 +113,12 @@ void DataErrors::FindSlopes(const TSpline& spline, const ScatteredSamples& sampl
         const double scale = std::min(1.0, Steepest / std::max(steepness, 1e-300)) / ranges[c];
         for (int a = 0; a < 3; ++a)
         {
-          this->Slopes[c](a, first + i) = scale * slope[a];
+          slopes[c](a, first + i) = scale * slope[a];
         }
       }
     }
   }
+  return slopes;
 }
 
 //------------------------------------------------------------------------------
@@ -85,24 +126,9 @@ void DataErrors::TakeOffAttributes(ColumnsOfSamples& values) const
 {
   const ColumnsOfPoints sums = this->Attributes.SumsOf(values);
   std::vector<double> fit;
-  this->Gram.Solve({ sums.data(), sums.data() + sums.size() }, ProjectionTolerance,
+  this->Gram->Solve({ sums.data(), sums.data() + sums.size() }, ProjectionTolerance,
     ProjectionIterations, fit, this->Run);
   values -= this->Attributes.ValuesOf(Eigen::Map<const Eigen::VectorXd>(fit.data(), sums.rows()));
-}
-
-//------------------------------------------------------------------------------
-ShapeNet DataErrors::Slope() const
-{
-  Eigen::Matrix3Xd forces = Eigen::Matrix3Xd::Zero(3, this->Count());
-  for (std::size_t c = 0; c < this->Slopes.size(); ++c)
-  {
-    const std::vector<double> residuals = this->Attributes.ResidualsOf(static_cast<int>(c));
-    for (Index i = 0; i < this->Count(); ++i)
-    {
-      forces.col(i) += residuals[i] / this->Ranges[c] * this->Slopes[c].col(i);
-    }
-  }
-  return this->Weight * this->OfShape.SumsOf(forces);
 }
 
 //------------------------------------------------------------------------------
@@ -123,15 +149,14 @@ ShapeNet DataErrors::Curve(const ShapeNet& direction) const
 GramMatrix DataErrors::Bound() const
 {
   ScatteredSamples weighted = this->Voxels;
-  for (Index i = 0; i < this->Count(); ++i)
+  for (Index i = 0; i < weighted.Count(); ++i)
   {
     double square = 0.0;
     for (const Eigen::Matrix3Xd& slopes : this->Slopes)
     {
       square += slopes.col(i).squaredNorm();
     }
-    weighted.Weights.push_back(
-      static_cast<float>(this->Weight * (LeftOver * square + this->Damping)));
+    weighted.Weights[i] *= static_cast<float>(this->Weight * (LeftOver * square + this->Damping));
   }
   ScatteredSystem system(weighted, 0, this->Layout, this->Run);
   system.Update(this->Shape);

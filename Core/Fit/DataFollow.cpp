@@ -30,8 +30,7 @@ Index CountFolded(const TSpline& shape, const BezierMesh& mesh, const Execution&
 TSpline MoveToData(const FittedAttributes& fitted, const TSpline& shape, double barrier,
   double damping, const Execution& execution)
 {
-  const GramMatrix gram = fitted.System.Assemble();
-  const DataErrors errors(fitted.Spline, shape, fitted.Layout, fitted.Samples, fitted.System, gram,
+  const DataErrors errors(fitted.Spline, shape, fitted.Layout, fitted.Samples, fitted.System,
     fitted.Ranges, { fitted.Spacing, DataWeight, damping }, execution);
   fitted.Target.Hold();
   ScatteredSystem system(fitted.Target.Samples(), 0, fitted.Layout, execution);

@@ -30,28 +30,6 @@ constexpr double Evenness = 1.0; // the size counts as much as the shape
 // determinant so small.
 constexpr double Nearly[] = { 0.1, 0.05, 0.02 };
 
-// J at a point from its row.
-template <typename Rows>
-Matrix3d JacobianOf(const Rows& derivatives, Index point, const Vector3d& lengths)
-{
-  Matrix3d j;
-  for (int a = 0; a < 3; ++a)
-  {
-    j.col(a) = derivatives.row(point).template segment<3>(3 * a) / lengths[a];
-  }
-  return j;
-}
-
-// Puts the derivative of something by J into the row, as one by it.
-template <typename Rows>
-void PutRow(const Matrix3d& slope, Index point, const Vector3d& lengths, Rows& rows)
-{
-  for (int a = 0; a < 3; ++a)
-  {
-    rows.row(point).template segment<3>(3 * a) = slope.col(a) / lengths[a];
-  }
-}
-
 Matrix3d CofactorsOf(const Matrix3d& j)
 {
   Matrix3d cofactors;
@@ -59,9 +37,11 @@ Matrix3d CofactorsOf(const Matrix3d& j)
   return cofactors;
 }
 
-double Dot(const Matrix3d& a, const Matrix3d& b)
+double LeastOf(const PartMatrices& jacobians)
 {
-  return a.cwiseProduct(b).sum();
+  double determinants[PaddedPoints];
+  FindDeterminants(jacobians, determinants);
+  return *std::min_element(determinants, determinants + PartPoints);
 }
 }
 
@@ -99,14 +79,15 @@ FoldEnergy::FoldEnergy(const BezierMesh& mesh, const SharedPoints& points, const
           AddProduct(1.0, basis.Forms[0][u], basis.Forms[1][v], basis.Forms[2][w], form);
           cell.Extraction.col(n) = Eigen::Map<Eigen::Matrix<double, 64, 1>>(form.data());
         }
-        const Vector3d ones = Vector3d::Ones();
-        const Derivatives derivatives = DerivativesOf(this->BezierOf(c, net), Part{ c, 0, {} });
+        cell.Scales = Vector3d::Ones();
+        PartMatrices jacobians;
+        this->FindJacobians(this->BezierOf(c, net), Part{ c, 0, {} }, jacobians);
         Vector3d squares = Vector3d::Zero();
-        for (Index point = 0; point < derivatives.rows(); ++point)
+        for (int point = 0; point < PartPoints; ++point)
         {
-          squares += JacobianOf(derivatives, point, ones).colwise().squaredNorm();
+          squares += jacobians.At(point).colwise().squaredNorm();
         }
-        cell.Lengths = (squares / static_cast<double>(derivatives.rows())).cwiseSqrt();
+        cell.Scales = (squares / PartPoints).cwiseSqrt().cwiseInverse();
       }
     });
   for (Index c = 0; c < mesh.Size(); ++c)
@@ -128,26 +109,25 @@ FoldEnergy::Bezier FoldEnergy::BezierOf(Index c, const ShapeNet& net) const
 }
 
 //------------------------------------------------------------------------------
-FoldEnergy::Derivatives FoldEnergy::DerivativesOf(const Bezier& bezier, const Part& part)
+std::vector<FoldEnergy::Bezier> FoldEnergy::BezierOfCells(const ShapeNet& net) const
 {
-  const Lines lines = LinesOf(part);
-  Derivatives derivatives;
-  for (int m = 0; m < 9; ++m)
-  {
-    Expand(lines, m / 3, bezier.col(m % 3), derivatives.col(m));
-  }
-  return derivatives;
+  std::vector<Bezier> all(this->Cells.size());
+  this->Run.ParallelFor(static_cast<Index>(all.size()),
+    [&](Index begin, Index end)
+    {
+      for (Index c = begin; c < end; ++c)
+      {
+        all[c] = this->BezierOf(c, net);
+      }
+    });
+  return all;
 }
 
 //------------------------------------------------------------------------------
-double FoldEnergy::LeastOf(Index c, const Derivatives& derivatives) const
+void FoldEnergy::FindJacobians(
+  const Bezier& bezier, const Part& part, PartMatrices& jacobians) const
 {
-  double least = std::numeric_limits<double>::max();
-  for (Index point = 0; point < derivatives.rows(); ++point)
-  {
-    least = std::min(least, JacobianOf(derivatives, point, this->Cells[c].Lengths).determinant());
-  }
-  return least;
+  Expand(LinesOf(part), this->Cells[part.Cell].Scales.data(), bezier.data(), jacobians);
 }
 
 //------------------------------------------------------------------------------
@@ -155,6 +135,7 @@ double FoldEnergy::LeastOf(Index c, const Derivatives& derivatives) const
 void FoldEnergy::Halve(const Bezier& bezier, const Part& part, std::vector<Part>& parts) const
 {
   std::array<Part, 8> eighths;
+  PartMatrices jacobians;
   double least = std::numeric_limits<double>::max();
   for (int e = 0; e < 8 && part.Halvings < MostHalvings; ++e)
   {
@@ -163,7 +144,8 @@ void FoldEnergy::Halve(const Bezier& bezier, const Part& part, std::vector<Part>
     {
       eighths[e].Place[a] = 2 * part.Place[a] + (e >> a & 1);
     }
-    least = std::min(least, this->LeastOf(part.Cell, DerivativesOf(bezier, eighths[e])));
+    this->FindJacobians(bezier, eighths[e], jacobians);
+    least = std::min(least, LeastOf(jacobians));
   }
   if (part.Halvings == MostHalvings || least > Nearly[part.Halvings])
   {
@@ -181,12 +163,13 @@ void FoldEnergy::CountFinely(const ShapeNet& net)
 {
   const auto count = static_cast<Index>(this->Parts.size());
   std::vector<std::vector<Part>> halved(count);
+  const std::vector<Bezier> bezier = this->BezierOfCells(net);
   this->Run.ParallelFor(count,
     [&](Index begin, Index end)
     {
       for (Index p = begin; p < end; ++p)
       {
-        this->Halve(this->BezierOf(this->Parts[p].Cell, net), this->Parts[p], halved[p]);
+        this->Halve(bezier[this->Parts[p].Cell], this->Parts[p], halved[p]);
       }
     });
   this->Parts.clear();
@@ -201,19 +184,22 @@ FoldEnergy::Evaluation FoldEnergy::Evaluate(const ShapeNet& net) const
 {
   const auto count = static_cast<Index>(this->Parts.size());
   std::vector<double> energies(count, 0.0), least(count);
+  const std::vector<Bezier> bezier = this->BezierOfCells(net);
   this->Run.ParallelFor(count,
     [&](Index begin, Index end)
     {
       for (Index p = begin; p < end; ++p)
       {
         const Part& part = this->Parts[p];
-        const Derivatives derivatives = DerivativesOf(this->BezierOf(part.Cell, net), part);
-        least[p] = this->LeastOf(part.Cell, derivatives);
-        for (Index point = 0; point < derivatives.rows(); ++point)
+        PartMatrices jacobians;
+        this->FindJacobians(bezier[part.Cell], part, jacobians);
+        double determinants[PaddedPoints];
+        FindDeterminants(jacobians, determinants);
+        least[p] = *std::min_element(determinants, determinants + PartPoints);
+        for (int point = 0; point < PartPoints; ++point)
         {
-          const Matrix3d j = JacobianOf(derivatives, point, this->Cells[part.Cell].Lengths);
-          energies[p] += CornerEnergy(
-            j.squaredNorm(), j.determinant(), this->Regularisation[part.Cell], Evenness);
+          energies[p] += CornerEnergy(jacobians.At(point).squaredNorm(), determinants[point],
+            this->Regularisation[part.Cell], Evenness);
         }
         energies[p] *= this->ShareOfPoint(part);
       }
@@ -244,8 +230,8 @@ void FoldEnergy::Regularise(const std::vector<double>& least)
 }
 
 //------------------------------------------------------------------------------
-// The sum over parts of what visit(p, part, rows) makes of rows for the derivatives at points of
-// part p: the derivative of the energy by each, as one by the net.
+// The sum over parts of what visit(p, share, matrices) makes of J at the points of part p: `share`
+// times the derivative of the energy by each, as one by the net.
 template <typename Visit>
 ShapeNet FoldEnergy::Collect(const ShapeNet& net, const Visit& visit) const
 {
@@ -254,6 +240,7 @@ ShapeNet FoldEnergy::Collect(const ShapeNet& net, const Visit& visit) const
       [&](Index first, Index last, std::vector<double>& part)
       {
         Eigen::Map<ShapeNet> sum(part.data(), this->Points, 3);
+        PartMatrices matrices;
         for (Index p = first; p < last;)
         {
           // The parts of one cell.
@@ -264,14 +251,9 @@ ShapeNet FoldEnergy::Collect(const ShapeNet& net, const Visit& visit) const
           for (; p < last && this->Parts[p].Cell == c; ++p)
           {
             const Part& part = this->Parts[p];
-            Derivatives rows = DerivativesOf(own, part);
-            visit(p, part, rows);
-            rows *= this->ShareOfPoint(part);
-            const Lines lines = LinesOf(part);
-            for (int m = 0; m < 9; ++m)
-            {
-              Reduce(lines, m / 3, rows.col(m), slopes.col(m % 3));
-            }
+            this->FindJacobians(own, part, matrices);
+            visit(p, this->ShareOfPoint(part), matrices);
+            Reduce(LinesOf(part), cell.Scales.data(), matrices, slopes.data());
           }
           const Eigen::MatrixX3d ofPoints = cell.Extraction.transpose() * slopes;
           for (std::size_t n = 0; n < cell.Points.size(); ++n)
@@ -288,24 +270,23 @@ ShapeNet FoldEnergy::Differentiate(const ShapeNet& net)
 {
   this->Curvature.resize(this->Parts.size());
   return this->Collect(net,
-    [&](Index p, const Part& part, Derivatives& rows)
+    [&](Index p, double share, PartMatrices& matrices)
     {
-      const Vector3d& lengths = this->Cells[part.Cell].Lengths;
-      for (Index point = 0; point < rows.rows(); ++point)
+      PartCurvature& at = this->Curvature[p];
+      at = {};
+      at.Jacobian = matrices;
+      for (int point = 0; point < PartPoints; ++point)
       {
-        PointCurvature& at = this->Curvature[p][point];
-        at.Jacobian = JacobianOf(rows, point, lengths);
-        at.Cofactors = CofactorsOf(at.Jacobian);
-        const double trace = at.Jacobian.squaredNorm();
-        const EnergyDerivatives e = CornerDerivatives(trace,
-          at.Jacobian.col(0).dot(at.Cofactors.col(0)), this->Regularisation[part.Cell], Evenness);
-        at.ByTrace = e.ByTrace;
-        at.ByBoth = e.ByBoth;
+        const Matrix3d jacobian = matrices.At(point), cofactors = CofactorsOf(jacobian);
+        const double trace = jacobian.squaredNorm();
+        const EnergyDerivatives e = CornerDerivatives(trace, jacobian.col(0).dot(cofactors.col(0)),
+          this->Regularisation[this->Parts[p].Cell], Evenness);
+        at.ByTrace[point] = e.ByTrace;
+        at.ByBoth[point] = e.ByBoth;
         // With |J|^2 and D as unknowns of their own this makes the energy convex.
-        at.ByDeterminantTwice =
+        at.ByDeterminantTwice[point] =
           std::max(e.ByDeterminantTwice, 2.0 * trace * e.ByBoth * e.ByBoth / e.ByTrace);
-        const Matrix3d slope = 2.0 * e.ByTrace * at.Jacobian + e.ByDeterminant * at.Cofactors;
-        PutRow(slope, point, lengths, rows);
+        matrices.Put(point, share * (2.0 * e.ByTrace * jacobian + e.ByDeterminant * cofactors));
       }
     });
 }
@@ -313,47 +294,35 @@ ShapeNet FoldEnergy::Differentiate(const ShapeNet& net)
 //------------------------------------------------------------------------------
 ShapeNet FoldEnergy::Curve(const ShapeNet& direction) const
 {
-  return this->Collect(direction,
-    [&](Index p, const Part& part, Derivatives& rows)
-    {
-      const Vector3d& lengths = this->Cells[part.Cell].Lengths;
-      for (Index point = 0; point < rows.rows(); ++point)
-      {
-        const PointCurvature& at = this->Curvature[p][point];
-        const Matrix3d d = JacobianOf(rows, point, lengths);
-        const double trace = 2.0 * Dot(at.Jacobian, d), determinant = Dot(at.Cofactors, d);
-        const Matrix3d curve =
-          2.0 * at.ByTrace * d + 2.0 * at.ByBoth * determinant * at.Jacobian +
-          (at.ByBoth * trace + at.ByDeterminantTwice * determinant) * at.Cofactors;
-        PutRow(curve, point, lengths, rows);
-      }
-    });
+  return this->Collect(direction, [this](Index p, double share, PartMatrices& changes)
+    { MultiplyCurvature(this->Curvature[p], share, changes); });
 }
 
 //------------------------------------------------------------------------------
 // The sum over the cell's points of stiffness times the products of derivatives along each axis of
 // the Bernstein polynomials.
-FoldEnergy::CellMatrix FoldEnergy::StiffnessOf(Index firstPart, Index lastPart, bool asCubes) const
+FoldEnergy::CellMatrix FoldEnergy::StiffnessOf(Index firstPart, Index lastPart) const
 {
   Eigen::Matrix<double, 256, 16> sum =
     Eigen::Matrix<double, 256, 16>::Zero(); // (u, u, v, v), (w, w)
   const Index cell = this->Parts[firstPart].Cell;
-  const Vector3d& lengths = this->Cells[cell].Lengths;
+  const Vector3d& scales = this->Cells[cell].Scales;
   // Where a cell folds that spread is too much by far.
-  const bool isCube = asCubes || this->Regularisation[cell] > Sharp;
+  const bool isCube = this->Regularisation[cell] > Sharp;
   const EnergyDerivatives e = CornerDerivatives(3.0, 1.0, 0.0, Evenness);
   const double ofCube = 2.0 * e.ByTrace + e.ByDeterminantTwice / 3.0;
   for (Index p = firstPart; p < lastPart; ++p)
   {
     const Part& part = this->Parts[p];
     PointGrid stiffness;
-    for (Index point = 0; point < PartPoints; ++point)
+    const PartCurvature& at = this->Curvature[p];
+    for (int point = 0; point < PartPoints; ++point)
     {
-      const PointCurvature& at = this->Curvature[p][point];
       // Of 2 s |dJ|^2 + d (cof : dJ)^2, the second spread over all directions.
       stiffness.data()[point] =
         isCube ? ofCube
-               : 2.0 * at.ByTrace + at.ByDeterminantTwice * at.Cofactors.squaredNorm() / 9.0;
+               : 2.0 * at.ByTrace[point] + at.ByDeterminantTwice[point] *
+                                             CofactorsOf(at.Jacobian.At(point)).squaredNorm() / 9.0;
     }
     stiffness *= this->ShareOfPoint(part);
     const Lines lines = LinesOf(part);
@@ -365,7 +334,7 @@ FoldEnergy::CellMatrix FoldEnergy::StiffnessOf(Index firstPart, Index lastPart, 
         squares[b] = SquaresOf(lines[b]->Along(b, a));
       }
       const Eigen::Matrix<double, 16, PartLine* PartLine> pencils =
-        squares[0] * stiffness / (lengths[a] * lengths[a]);
+        squares[0] * stiffness * (scales[a] * scales[a]);
       Eigen::Matrix<double, 256, PartLine> planes;
       for (int k = 0; k < PartLine; ++k)
       {
@@ -386,7 +355,7 @@ FoldEnergy::CellMatrix FoldEnergy::StiffnessOf(Index firstPart, Index lastPart, 
 }
 
 //------------------------------------------------------------------------------
-Eigen::SparseMatrix<double> FoldEnergy::Stiffness(bool asCubes) const
+Eigen::SparseMatrix<double> FoldEnergy::Stiffness() const
 {
   const auto count = static_cast<Index>(this->Cells.size());
   std::vector<Index> firstPart(count + 1, static_cast<Index>(this->Parts.size()));
@@ -401,8 +370,8 @@ Eigen::SparseMatrix<double> FoldEnergy::Stiffness(bool asCubes) const
       for (Index c = begin; c < end; ++c)
       {
         const Eigen::MatrixXd& extraction = this->Cells[c].Extraction;
-        ofCells[c] = extraction.transpose() *
-                     this->StiffnessOf(firstPart[c], firstPart[c + 1], asCubes) * extraction;
+        ofCells[c] =
+          extraction.transpose() * this->StiffnessOf(firstPart[c], firstPart[c + 1]) * extraction;
       }
     });
   std::vector<Eigen::Triplet<double>> entries;

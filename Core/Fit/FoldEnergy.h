@@ -12,6 +12,7 @@
 
 #include "BlockSpline.h"
 #include "Execution.h"
+#include "PartLattice.h"
 #include "TSpline/BezierMesh.h"
 
 #include <Eigen/Dense>
@@ -56,19 +57,16 @@ public:
   ShapeNet Curve(const ShapeNet& direction) const;
 
   /// About as large as the curvature at the net of Differentiate, but the same for X, Y and Z, and
-  /// for all directions at a point: a matrix of all points. Cells that fold, or all, as if they
-  /// were cubes.
-  Eigen::SparseMatrix<double> Stiffness(bool asCubes) const;
+  /// for all directions at a point: a matrix of all points. Cells that fold count as cubes.
+  Eigen::SparseMatrix<double> Stiffness() const;
 
 private:
-  static constexpr Index PartPoints = 125; // 5 along each axis, the ends among them
   using Bezier = Eigen::Matrix<double, 64, 3>;
-  using Derivatives = Eigen::Matrix<double, PartPoints, 9>;
   struct Cell
   {
     std::vector<std::int32_t> Points; // of its functions
     Eigen::MatrixXd Extraction;       // from their coefficients to the 64 of Bernstein
-    Eigen::Vector3d Lengths;
+    Eigen::Vector3d Scales;           // one over the cell's lengths
   };
   // A cell that was halved so often along each axis has 2^Halvings places along each.
   struct Part
@@ -77,31 +75,25 @@ private:
     int Halvings;
     std::array<int, 3> Place;
   };
-  // At a point: how the energy changes with J.
-  struct PointCurvature
-  {
-    Eigen::Matrix3d Jacobian, Cofactors;
-    double ByTrace, ByBoth, ByDeterminantTwice;
-  };
 
   Bezier BezierOf(Index cell, const ShapeNet& net) const;
-  // J at points of a part, but along the unit cube of its cell: a row each, column after column.
-  static Derivatives DerivativesOf(const Bezier& bezier, const Part& part);
-  double LeastOf(Index cell, const Derivatives& derivatives) const;
+  std::vector<Bezier> BezierOfCells(const ShapeNet& net) const;
+  // J at the points of a part.
+  void FindJacobians(const Bezier& bezier, const Part& part, PartMatrices& jacobians) const;
   void Halve(const Bezier& bezier, const Part& part, std::vector<Part>& parts) const;
   double ShareOfPoint(const Part& part) const;
   using CellMatrix = Eigen::Matrix<double, 64, 64>;
-  CellMatrix StiffnessOf(Index firstPart, Index lastPart, bool asCubes) const;
+  CellMatrix StiffnessOf(Index firstPart, Index lastPart) const;
   template <typename Visit>
   ShapeNet Collect(const ShapeNet& net, const Visit& visit) const;
 
   const Execution& Run;
   Index Points;
   std::vector<Cell> Cells;
-  std::vector<Part> Parts;            // of all cells in their order
-  std::vector<double> Regularisation; // of each cell
-  std::vector<double> Bluntness;      // of each cell, the next one in parts of its determinant
-  std::vector<std::array<PointCurvature, PartPoints>> Curvature; // of each part
+  std::vector<Part> Parts;              // of all cells in their order
+  std::vector<double> Regularisation;   // of each cell
+  std::vector<double> Bluntness;        // of each cell, the next one in parts of its determinant
+  std::vector<PartCurvature> Curvature; // of each part
 };
 }
 

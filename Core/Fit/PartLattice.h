@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * The points of a part of a Bezier cell at which FoldEnergy counts, and a tricubic polynomial
- * there: sums along u, v, w one after the other.
+ * The points of a part of a Bezier cell at which FoldEnergy counts, the derivatives of a tricubic
+ * map there, sums along u, v, w one after the other, and what is done at each point.
  */
 #ifndef trivariate_PartLattice_h
 #define trivariate_PartLattice_h
@@ -15,13 +15,15 @@
 namespace trivariate
 {
 constexpr int MostHalvings = 3; // of a cell along each axis
-constexpr int PartLine = 5;     // points of a part along each axis
+constexpr int PartLine = 5;     // points of a part along each axis, the ends among them
+constexpr int PartPoints = PartLine * PartLine * PartLine;
+constexpr int PaddedPoints = 128; // of vectors
 
 // The cubic Bernstein polynomials, and their derivatives, at five equal distances of an interval in
 // the unit interval, its ends among them.
 struct Line
 {
-  using Values = Eigen::Matrix<double, PartLine, 4>;
+  using Values = Eigen::Matrix<double, PartLine, 4, Eigen::RowMajor>;
   Values Polynomials, Slopes;
 
   Line(int halvings, int place)
@@ -59,39 +61,6 @@ inline const Line& LineOf(int halvings, int place)
 
 // The polynomials along u, v, w at the points of a part.
 using Lines = std::array<const Line*, 3>;
-using Plane = Eigen::Matrix<double, 16, PartLine>;
-using Pencil = Eigen::Matrix<double, 4, PartLine * PartLine>;
-using PointGrid = Eigen::Matrix<double, PartLine, PartLine * PartLine>;
-
-// The derivative along a of the polynomial with 64 coefficients at all points, u fastest.
-template <typename Coefficients, typename Values>
-void Expand(const Lines& lines, int a, const Coefficients& coefficients, Values&& values)
-{
-  const Plane planes = Eigen::Map<const Eigen::Matrix<double, 16, 4>>(coefficients.data()) *
-                       lines[2]->Along(2, a).transpose();
-  Pencil pencils;
-  for (int k = 0; k < PartLine; ++k)
-  {
-    pencils.template middleCols<PartLine>(PartLine * k).noalias() =
-      Eigen::Map<const Eigen::Matrix4d>(planes.col(k).data()) * lines[1]->Along(1, a).transpose();
-  }
-  Eigen::Map<PointGrid>(values.data()).noalias() = lines[0]->Along(0, a) * pencils;
-}
-
-// The transposed map: adds to the 64 coefficients.
-template <typename Values, typename Coefficients>
-void Reduce(const Lines& lines, int a, const Values& values, Coefficients&& coefficients)
-{
-  const Pencil pencils =
-    lines[0]->Along(0, a).transpose() * Eigen::Map<const PointGrid>(values.data());
-  Plane planes;
-  for (int k = 0; k < PartLine; ++k)
-  {
-    Eigen::Map<Eigen::Matrix4d>(planes.col(k).data()).noalias() =
-      pencils.template middleCols<PartLine>(PartLine * k) * lines[1]->Along(1, a);
-  }
-  Eigen::Map<Eigen::Matrix<double, 16, 4>>(coefficients.data()) += planes * lines[2]->Along(2, a);
-}
 
 template <typename Part>
 Lines LinesOf(const Part& part)
@@ -99,6 +68,56 @@ Lines LinesOf(const Part& part)
   return { &LineOf(part.Halvings, part.Place[0]), &LineOf(part.Halvings, part.Place[1]),
     &LineOf(part.Halvings, part.Place[2]) };
 }
+
+// A number for the derivative of each component c by each direction a, in row 3 a + c, at all
+// points of a part, u fastest: a Jacobian at each, or the derivatives of something by it. The
+// numbers beyond the points are zero.
+struct alignas(64) PartMatrices
+{
+  double Rows[9][PaddedPoints];
+
+  Eigen::Matrix3d At(int point) const
+  {
+    Eigen::Matrix3d matrix;
+    for (int m = 0; m < 9; ++m)
+    {
+      matrix.data()[m] = this->Rows[m][point];
+    }
+    return matrix;
+  }
+  void Put(int point, const Eigen::Matrix3d& matrix)
+  {
+    for (int m = 0; m < 9; ++m)
+    {
+      this->Rows[m][point] = matrix.data()[m];
+    }
+  }
+};
+
+// The derivatives of the map with 64 coefficients of each of three components, those along a times
+// scales[a].
+void Expand(
+  const Lines& lines, const double* scales, const double* coefficients, PartMatrices& out);
+
+// The transposed map: adds to the coefficients.
+void Reduce(const Lines& lines, const double* scales, const PartMatrices& in, double* coefficients);
+
+// Of the matrices at all points.
+void FindDeterminants(const PartMatrices& matrices, double* determinants);
+
+// How an energy changes with J at all points of a part: its derivatives by |J|^2 and det J.
+struct alignas(64) PartCurvature
+{
+  PartMatrices Jacobian;
+  double ByTrace[PaddedPoints], ByBoth[PaddedPoints], ByDeterminantTwice[PaddedPoints];
+};
+
+// Takes changes of J to `factor` times those of the energy's derivative by J, but for what comes
+// from how the determinant curves.
+void MultiplyCurvature(const PartCurvature& curvature, double factor, PartMatrices& changes);
+
+// Numbers at all points, u fastest.
+using PointGrid = Eigen::Matrix<double, PartLine, PartLine * PartLine>;
 
 // Of each point of a line, the products of all pairs of polynomials.
 using Squares = Eigen::Matrix<double, 16, PartLine>;

@@ -6,6 +6,8 @@
 
 #include "TSpline/BezierKernels.h"
 
+#include <cmath>
+
 namespace trivariate
 {
 namespace
@@ -219,5 +221,20 @@ std::vector<double> ScatteredSystem::ResidualsOf(int component) const
     residuals[this->Sorted[at]] = this->Residuals[component][at];
   }
   return residuals;
+}
+
+//------------------------------------------------------------------------------
+// Which of the `step`: by the golden ratio, for samples of a cell come in rows.
+std::vector<Index> ScatteredSystem::EveryOnce(Index step) const
+{
+  constexpr double GoldenRatio = 0.6180339887498949;
+  std::vector<Index> samples;
+  for (Index first = 0; first < this->Samples.Count(); first += step)
+  {
+    const double turn = GoldenRatio * static_cast<double>(samples.size());
+    const Index at = first + static_cast<Index>(step * (turn - std::floor(turn)));
+    samples.push_back(this->Sorted[std::min(at, this->Samples.Count() - 1)]);
+  }
+  return samples;
 }
 }

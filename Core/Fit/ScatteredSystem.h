@@ -95,6 +95,9 @@ public:
   /// The residuals of a component at all samples, in their order.
   std::vector<double> ResidualsOf(int component) const;
 
+  /// One of every `step` samples along the cells, so that each cell has its share of them.
+  std::vector<Index> EveryOnce(Index step) const;
+
   /// At all samples, in their order, the function with a coefficient for each control point; and
   /// the transposed map, for each control point the weighted sum of values times its function.
   /// Both of up to MostColumns columns at once.

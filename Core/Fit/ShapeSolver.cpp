@@ -95,8 +95,10 @@ private:
     double slid = std::numeric_limits<double>::max(); // the value when it slid last
     double shortest = 0.0;                            // step since then
     int failures = 0;                                 // one after the other
+    int folded = 0;                                   // steps, which are counted by themselves
+    const int most = this->Options.MostSteps;
     this->Slide();
-    for (int step = 0; step < this->Options.MostSteps && failures < MostFailures; ++step)
+    for (int step = 0; step - folded < most && folded < most && failures < MostFailures; ++step)
     {
       this->Run.Check(0.0);
       this->Energy.CountFinely(this->Net);
@@ -104,6 +106,7 @@ private:
       const bool folds = here.Folds();
       if (folds)
       {
+        ++folded;
         this->Energy.Regularise(here.Least);
         here = this->Energy.Evaluate(this->Net);
       }
@@ -176,7 +179,7 @@ private:
   {
     const ShapeNet slope = this->Samples * this->Net - this->Wanted + this->DataSlope +
                            this->Barrier * this->Energy.Differentiate(this->Net);
-    this->Factors.compute(this->Bound + this->Barrier * this->Energy.Stiffness(!this->Data));
+    this->Factors.compute(this->Bound + this->Barrier * this->Energy.Stiffness());
     ShapeNet step = ShapeNet::Zero(slope.rows(), 3), residual = -slope, dataStep = step;
     ShapeNet conditioned = this->Factors.solve(residual), direction = conditioned;
     double norm = Dot(residual, conditioned);

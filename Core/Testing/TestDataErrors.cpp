@@ -69,7 +69,6 @@ struct CubeOfData
     TSpline Spline;
     ScatteredSamples Samples;
     std::unique_ptr<ScatteredSystem> System;
-    std::unique_ptr<GramMatrix> Gram;
   };
   void Fit(const ShapeNet& way, Fitted& fitted) const
   {
@@ -87,11 +86,11 @@ struct CubeOfData
     fitted.System = std::make_unique<ScatteredSystem>(fitted.Samples, 3, this->Layout, this->Run);
     fitted.System->Update(fitted.Spline);
     fitted.System->ComputeResiduals(fitted.Spline);
-    fitted.Gram = std::make_unique<GramMatrix>(fitted.System->Assemble());
+    const GramMatrix gram = fitted.System->Assemble();
     std::vector<double> coefficients;
     for (int round = 0; round < 3; ++round) // the matrix is of single precision
     {
-      fitted.Gram->Solve(fitted.System->Gradient(0), 1e-10, 1000, coefficients, this->Run);
+      gram.Solve(fitted.System->Gradient(0), 1e-10, 1000, coefficients, this->Run);
       for (Index i = 0; i < fitted.Spline.Size(); ++i)
       {
         fitted.Spline.ControlPoint(i)[3] += coefficients[i];
@@ -138,8 +137,8 @@ struct ErrorsOfCube
   std::unique_ptr<DataErrors> With(const DataErrorOptions& options) const
   {
     return std::make_unique<DataErrors>(this->Here.Spline, this->Cube.Shape, this->Cube.Layout,
-      this->Here.Samples, *this->Here.System, *this->Here.Gram, std::vector<double>{ this->Range },
-      options, this->Cube.Run);
+      this->Here.Samples, *this->Here.System, std::vector<double>{ this->Range }, options,
+      this->Cube.Run);
   }
 
   // After another fit on a moved shape.
@@ -205,6 +204,25 @@ TEST(DataErrors, HaveASymmetricCurvature)
   all.rowwise() = Eigen::RowVector3d(0.3, 0.0, 0.4);
   const double ways = 0.25 * cube.Samples.Values.size();
   EXPECT_NEAR(curve(10.0, all, all) - curve(0.0, all, all), 2.0 * 10.0 * ways / 0.25, 1e-6 * ways);
+}
+
+// A part of the voxels tells nearly the same of the second derivative, and the gradient is that of
+// all.
+TEST(DataErrors, NeedFewVoxelsForTheirCurvature)
+{
+  const ErrorsOfCube errors(Steep);
+  DataErrorOptions options = errors.Options;
+  options.VoxelsOfPoint = 6; // of 2,197 for 125 points
+  const auto few = errors.With(options);
+  EXPECT_EQ(few->Slope(), errors.Model->Slope());
+  for (unsigned seed = 0; seed < 4; ++seed)
+  {
+    const ShapeNet way = errors.Cube.RandomWay(seed, 1.0);
+    const double curve = errors.Model->Curve(way).cwiseProduct(way).sum();
+    const double ofFew = few->Curve(way).cwiseProduct(way).sum();
+    EXPECT_NE(ofFew, curve);
+    EXPECT_NEAR(ofFew, curve, 0.25 * curve) << seed;
+  }
 }
 
 TEST(RefinementHistory, RefinesAnotherSplineInTheSameWay)
