@@ -289,7 +289,9 @@ double LastRms(vtkTable* rounds)
 //------------------------------------------------------------------------------
 void AddRounds(const FittedPart& fitted, int segment, vtkTable* all)
 {
-  const char* names[] = { "Segment", "ControlPoints", "RMS", "MaximumError", "Seconds", "Range" };
+  const char* names[] = { "Segment", "ControlPoints", "RMS", "MaximumError", "Seconds", "Range",
+    "GradientJump" };
+  vtkDataArray* jump = fitted.Rounds->GetFieldData()->GetArray("GradientJump");
   if (all->GetNumberOfColumns() == 0)
   {
     for (const char* name : names)
@@ -315,9 +317,10 @@ void AddRounds(const FittedPart& fitted, int segment, vtkTable* all)
     for (const char* name : names)
     {
       vtkDataArray::SafeDownCast(all->GetColumnByName(name))
-        ->InsertNextTuple1(name == names[0] ? segment
-                           : name == names[5]
-                             ? fitted.Range
+        ->InsertNextTuple1(name == names[0]   ? segment
+                           : name == names[5] ? fitted.Range
+                           : name == names[6]
+                             ? (jump ? jump->GetTuple1(0) : 0.0)
                              : fitted.Rounds->GetValueByName(row, name).ToDouble());
     }
     vtkStringArray::SafeDownCast(all->GetColumnByName("Domain"))->InsertNextValue(fitted.Domain);

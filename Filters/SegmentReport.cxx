@@ -240,6 +240,7 @@ ReportRow MakeRow(const ReportInput& input, int segment, const Errors& errors,
   numbers["MaximumErrorPercent"] = 100.0 * errors.Largest;
   numbers["PSNRDecibels"] = -20.0 * std::log10(rms);
   numbers["HausdorffVoxels"] = facts.Hausdorff;
+  numbers["GradientJumpPercent"] = 100.0 * facts.GradientJump;
   numbers["MinimumScaledJacobian"] = facts.MinimumScaledJacobian;
   numbers["InvertedCells"] = facts.InvertedCells;
   numbers["Blocks"] = facts.Blocks;
@@ -258,8 +259,8 @@ const std::vector<std::string>& ReportColumns()
 {
   static const std::vector<std::string> columns = { "Segment", "Voxels", "RMSPercent", "Corners",
     "ControlPoints", "RoundTripRMSPercent", "FoundPercent", "MaximumErrorPercent", "PSNRDecibels",
-    "HausdorffVoxels", "MinimumScaledJacobian", "InvertedCells", "Blocks", "NumbersStored",
-    "SplineBytes", "LabelBytes", "RawBytes", "ZLibBytes", "Seconds", "Domain" };
+    "HausdorffVoxels", "GradientJumpPercent", "MinimumScaledJacobian", "InvertedCells", "Blocks",
+    "NumbersStored", "SplineBytes", "LabelBytes", "RawBytes", "ZLibBytes", "Seconds", "Domain" };
   return columns;
 }
 
@@ -301,15 +302,16 @@ std::vector<ReportRow> MakeReport(const ReportInput& input, const Execution& exe
     {
       const TSplineModel fitted = several ? SegmentPart(model, segment) : model;
       const BezierMesh mesh(fitted.Spline, part.Part(0.2, 0.25));
+      const LastRound last = LastRoundOf(input.Rounds, segment);
       if (several || rows.empty())
       {
         const TSplineModel stored = several ? SegmentPart(input.Model, segment) : input.Model;
         facts = DescribeSpline(
           stored, mesh, several ? segment : segments.front(), input, part.Part(0.25, 0.8));
+        facts.GradientJump = facts.Affine ? 0.0 : last.GradientJump / range;
         totalFacts.Add(facts);
       }
       const SplineFacts& described = several ? facts : totalFacts;
-      const LastRound last = LastRoundOf(input.Rounds, segment);
       domain = DomainOf(described, several, last);
       const std::vector<double> ownValues =
         input.Parameter < 0 ? std::vector<double>()

@@ -90,7 +90,9 @@ void SplineFacts::Add(const SplineFacts& other)
   Merge(this->MinimumScaledJacobian, other.MinimumScaledJacobian,
     [](double a, double b) { return std::min(a, b); });
   Merge(this->InvertedCells, other.InvertedCells, sum);
-  Merge(this->Hausdorff, other.Hausdorff, [](double a, double b) { return std::max(a, b); });
+  const auto largest = [](double a, double b) { return std::max(a, b); };
+  Merge(this->Hausdorff, other.Hausdorff, largest);
+  Merge(this->GradientJump, other.GradientJump, largest);
 }
 
 //------------------------------------------------------------------------------
@@ -162,8 +164,11 @@ LastRound LastRoundOf(vtkTable* rounds, int segment)
     if (rounds->GetValueByName(row, "Segment").ToInt() == segment)
     {
       last.Domain = rounds->GetValueByName(row, "Domain").ToString();
-      last.Rms = rounds->GetValueByName(row, "RMS").ToDouble() / 100.0 *
-                 rounds->GetValueByName(row, "Range").ToDouble();
+      const double range = rounds->GetValueByName(row, "Range").ToDouble();
+      last.Rms = rounds->GetValueByName(row, "RMS").ToDouble() / 100.0 * range;
+      last.GradientJump = rounds->GetColumnByName("GradientJump")
+                            ? rounds->GetValueByName(row, "GradientJump").ToDouble() * range
+                            : SplineFacts::NaN;
     }
   }
   return last;

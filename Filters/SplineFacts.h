@@ -35,8 +35,9 @@ struct SplineFacts
   double Bytes = NaN;
   double MinimumScaledJacobian = NaN; ///< as JacobianRange, above 0 for the image's own handedness
   double InvertedCells = NaN;
-  double Hausdorff = NaN; ///< in voxels; not for an affine geometry, the box of an image
-  bool Affine = false;    ///< the geometry, where the spline is whole
+  double Hausdorff = NaN;    ///< in voxels; not for an affine geometry, the box of an image
+  double GradientJump = NaN; ///< of the array a voxel, in its units
+  bool Affine = false;       ///< the geometry, where the spline is whole
 
   /// Of two segments together; what is not known of one does not count. Affine is that of `other`.
   void Add(const SplineFacts& other);
@@ -55,8 +56,9 @@ double SecondsOf(vtkTable* rounds, int segment);
 /// What the rounds tell of the fit that a segment ended with.
 struct LastRound
 {
-  std::string Domain;            ///< over what it was fitted; empty: not known
-  double Rms = SplineFacts::NaN; ///< in units of the array
+  std::string Domain;                     ///< over what it was fitted; empty: not known
+  double Rms = SplineFacts::NaN;          ///< in units of the array
+  double GradientJump = SplineFacts::NaN; ///< likewise, a voxel
 };
 
 LastRound LastRoundOf(vtkTable* rounds, int segment);

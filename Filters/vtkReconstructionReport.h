@@ -20,7 +20,7 @@
  * spline of one segment stands for all voxels.
  * Port 2 (optional): vtkPolyData, the surfaces of the segments, by vtkSegmentBoundary or (patches)
  * vtkPolycubeDomain.
- * Port 3 (optional): vtkTable, the rounds of the fit; of its columns Seconds, RMS, Range and Domain
+ * Port 3 (optional): vtkTable, the rounds of the fit; of its columns Seconds, RMS, Range, GradientJump and Domain
  * the last row of each segment (column Segment, if there is one) counts.
  *
  * @par Output
@@ -41,6 +41,9 @@
  * - HausdorffVoxels: Hausdorff distance of the spline's boundary and the segment's surface (port
  *   2), in units of voxels; the largest one in total. NaN for an affine geometry, whose boundary is
  *   that of a box;
+ * - GradientJumpPercent: root mean square, over the faces that blocks share without being C2 there,
+ *   of the jump of the array's gradient in space, a voxel, as the rounds tell (port 3); 0 where the
+ *   geometry is affine, the largest one in total;
  * - MinimumScaledJacobian: smallest determinant of d(X, Y, Z)/d(u, v, w) divided by the lengths of
  *   its columns, in [-1, 1], at 3^3 points of each Bezier cell; InvertedCells: cells where it is
  *   not above zero. In an image whose indices are a left hand the sign is turned;

@@ -40,9 +40,9 @@
  * Port 0: the T-spline grid; the control points' arrays Segment and Block tell whose they are.
  * Port 1: vtkTable, the rounds of all fits, with the columns of vtkTSplineFit; and, but not of
  * one spline over the whole image, Segment, Range (double, of the array in the segment, of which
- * RMS and MaximumError are parts) and Domain (string: SegmentBox, Cubes or LayeredCubes); segments
- * that are fitted together have the same rounds, with the range of both and all their points. Field
- * data: Step (string) and StepSeconds (double), where the time went: the names of the filters
+ * RMS and MaximumError are parts), GradientJump (double, of vtkTSplineFit after the last round) and
+ * Domain (string: SegmentBox, Cubes or LayeredCubes); segments that are fitted together have the
+ * same rounds, with the range of both and all their points. Field data: Step (string) and StepSeconds (double), where the time went: the names of the filters
  * without "vtk", FitOverBox and FitOverCubes.
  * Unless Domain is BOX also:
  * Port 2: the image with the point array Segment. Port 3: vtkPolyData, the surfaces of the segments

@@ -395,6 +395,7 @@ def main():
         "cubes": segments.cubes_among([segment for segment, domain in fitted_over.items()
                                        if domain in ("Cubes", "LayeredCubes")]),
         "boundary_hausdorff_voxels": number_or_none(measured["HausdorffVoxels"]),
+        "gradient_jump_percent": number_or_none(measured["GradientJumpPercent"]),
         "min_scaled_jacobian": number_or_none(measured["MinimumScaledJacobian"]),
         "inverted_cells": whole_or_none(measured["InvertedCells"]),
         **segments.quality(),

@@ -49,6 +49,7 @@ TEST(ReconstructionReport, OfTheImageThatASplineIsHasNoErrors)
     EXPECT_EQ(DomainIn(report, row), "ImageBox");
     EXPECT_NEAR(Cell(report, row, "MinimumScaledJacobian"), 1.0, 1e-12);
     EXPECT_EQ(Cell(report, row, "InvertedCells"), 0.0);
+    EXPECT_EQ(Cell(report, row, "GradientJumpPercent"), 0.0);
     EXPECT_EQ(Cell(report, row, "RawBytes"), 8.0 * voxels);
     for (const char* unknown : { "Corners", "HausdorffVoxels", "Seconds" })
     {

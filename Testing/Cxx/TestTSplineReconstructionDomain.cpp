@@ -237,6 +237,8 @@ TEST(TSplineReconstruction, FitsSegmentsThatTouchTogether)
   {
     EXPECT_EQ(report->GetValueByName(row, "Domain").ToString(), "LayeredCubes");
     EXPECT_EQ(report->GetValueByName(row, "FoundPercent").ToDouble(), 100.0);
+    EXPECT_GT(report->GetValueByName(row, "GradientJumpPercent").ToDouble(), 0.0);
+    EXPECT_LT(report->GetValueByName(row, "GradientJumpPercent").ToDouble(), 5.0);
   }
   EXPECT_LT(report->GetValueByName(3, "RoundTripRMSPercent").ToDouble(), 0.2);
   EXPECT_LE(report->GetValueByName(3, "RoundTripRMSPercent").ToDouble(),

@@ -22,7 +22,7 @@ script = pathlib.Path(sys.argv[1]) / "reconstruct.sh"
 KEYS = ["voxels", "control_points", "numbers_stored", "tmesh_cells", "bezier_cells",
         "rms_density_percent", "psnr_decibels", "max_error", "round_trip_rms_density_percent",
         "found_percent", "segments", "domains", "fitted_over", "blocks", "corners", "cubes",
-        "boundary_hausdorff_voxels", "min_scaled_jacobian", "inverted_cells",
+        "boundary_hausdorff_voxels", "gradient_jump_percent", "min_scaled_jacobian", "inverted_cells",
         "mean_scaled_jacobian", "inverted_cells_before", "inverted_cells_after", "hexahedra",
         "seconds", "seconds_of_fit", "peak_memory_bytes", "model_bytes", "raw_bytes", "zlib_bytes",
         "label_bytes", "threads", "version"]
