@@ -23,12 +23,12 @@ constexpr double Freedom = 0.01;    // the same
 constexpr double Evenness = 0.35;
 constexpr int MostSmoothing = 15; // sweeps
 
-double VolumeInside(const SurfaceLayout& layout)
+double VolumeInside(const std::vector<Vector3d>& points, const std::vector<Triangle>& triangles)
 {
   double volume = 0.0;
-  for (const Triangle& t : layout.Triangles)
+  for (const Triangle& t : triangles)
   {
-    volume += layout.Points[t[0]].dot(layout.Points[t[1]].cross(layout.Points[t[2]])) / 6.0;
+    volume += points[t[0]].dot(points[t[1]].cross(points[t[2]])) / 6.0;
   }
   return volume;
 }
@@ -81,14 +81,12 @@ double DistanceFrom(const std::vector<Vector3d>& otherPoints, const std::vector<
   }
   return std::sqrt(sum / whole);
 }
-}
 
-//------------------------------------------------------------------------------
-double CoarseHexahedra(const SegmentDomain& domain, const Execution& execution)
+double QualityIn(const BlockDomain& blocks, const Execution& execution)
 {
-  const double volume = VolumeInside(domain.Layout), size = std::cbrt(volume);
-  const BlockDomain blocks =
-    DomainOfSegment(LayeredBlocks(domain, LayerDepth * size, execution.Part(0.0, 0.1)), domain);
+  const std::vector<Vector3d>& points = blocks.SurfacePoints;
+  const std::vector<Triangle>& surface = blocks.Triangles;
+  const double size = std::cbrt(VolumeInside(points, surface));
   BlockMeshOptions options;
   options.CellLength = CellLength(blocks, options, size);
   options.LayerCells = options.CellLength;
@@ -96,12 +94,27 @@ double CoarseHexahedra(const SegmentDomain& domain, const Execution& execution)
   options.Repair.Evenness = Evenness;
   options.Repair.MostRounds = 1;
   options.Repair.MostSmoothing = MostSmoothing;
-  const BlockMesh mesh = MakeBlockMesh(blocks, options, execution.Part(0.1, 1.0));
+  const BlockMesh mesh = MakeBlockMesh(blocks, options, execution);
   const std::vector<Triangle> outer = OuterTriangles(blocks, mesh);
-  const std::vector<Vector3d>& points = domain.Layout.Points;
-  const std::vector<Triangle>& surface = domain.Layout.Triangles;
   const double distance = std::max(DistanceFrom(mesh.Places, outer, points, surface),
     DistanceFrom(points, surface, mesh.Places, outer));
   return QualityOf(mesh, execution).MeanJacobian / (1.0 + distance * std::cbrt(MostCells) / size);
+}
+}
+
+//------------------------------------------------------------------------------
+double CoarseHexahedra(const SegmentDomain& domain, const Execution& execution)
+{
+  const double size = std::cbrt(VolumeInside(domain.Layout.Points, domain.Layout.Triangles));
+  return QualityIn(
+    DomainOfSegment(LayeredBlocks(domain, LayerDepth * size, execution.Part(0.0, 0.1)), domain),
+    execution.Part(0.1, 1.0));
+}
+
+//------------------------------------------------------------------------------
+double CoarseHexahedra(
+  const SegmentDomain& outer, const SegmentDomain& inner, const Execution& execution)
+{
+  return QualityIn(DomainOfSegment(ShellBlocks(outer, inner), outer, &inner), execution);
 }
 }

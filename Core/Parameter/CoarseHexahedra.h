@@ -22,6 +22,10 @@ namespace trivariate
  * std::invalid_argument as BlockDomain.
  */
 double CoarseHexahedra(const SegmentDomain& domain, const Execution& execution);
+
+/// The same for the blocks of a shell, with the distances of both surfaces.
+double CoarseHexahedra(
+  const SegmentDomain& outer, const SegmentDomain& inner, const Execution& execution);
 }
 
 #endif

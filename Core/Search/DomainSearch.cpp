@@ -225,7 +225,11 @@ void DomainSearch::LayOut(Candidate& candidate)
   if (candidate.IsOfCharts)
   {
     candidate.Domain = this->FindCubeOrChain(this->Mesh);
-    candidate.Cubes = candidate.Domain ? candidate.Domain->Cubes : candidate.Cubes;
+    if (candidate.Domain)
+    {
+      candidate.Cubes = candidate.Domain->Cubes;
+      candidate.Quality = this->QualityOfCube(this->Charts->Cube()); // its charts may be others
+    }
     return;
   }
   candidate.Domain = std::make_unique<SegmentDomain>(

@@ -6,10 +6,13 @@
 #include "Domain/InnerCorners.h"
 #include "Domain/InnerPath.h"
 #include "Domain/TriangleTree.h"
+#include "Parameter/CoarseHexahedra.h"
+#include "SurfaceReduction.h"
 
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -21,22 +24,9 @@ namespace
 using Eigen::Vector3d;
 
 constexpr int MostSteps = 1000;
-constexpr double Arrived = 1e-3; // of the way so far
-// In alignment: of the worst block's ScaledJacobian, and of each block that is inverted.
-constexpr double WorthOfJacobian = 0.2, CostOfInversion = 0.03;
-
-// How well both surfaces are aligned, and how good the blocks between them are.
-double Worth(const SegmentDomain& outer, const SegmentDomain& inner)
-{
-  const DomainBlocks blocks = ShellBlocks(outer, inner);
-  double least = std::numeric_limits<double>::infinity();
-  for (const DomainBlock& block : blocks.Blocks)
-  {
-    least = std::min(least, ScaledJacobian(blocks.Places, block.Points));
-  }
-  return 0.5 * (outer.Alignment + inner.Alignment) + WorthOfJacobian * std::max(least, 0.0) -
-         CostOfInversion * double(InvertedBlocks(blocks).size());
-}
+constexpr double Arrived = 1e-3;     // of the way so far
+constexpr Index FewTriangles = 3000; // enough to tell how good hexahedra become
+constexpr double Hopeless = -1.0;    // these, where they cannot be made
 
 // Where rays outwards from the corners of the inner surface meet the outer one. No step is longer
 // than the distance to the outer surface, so that none leads across it.
@@ -90,6 +80,132 @@ std::optional<SegmentDomain> WithCorners(const SurfaceMesh& surface, const Segme
   }
   return std::nullopt;
 }
+
+std::vector<Vector3d> CornersOf(const SegmentDomain& domain)
+{
+  return { domain.Places.begin(), domain.Places.begin() + domain.Cubes.NumberOfCorners };
+}
+
+DomainOptions WithOneCube(DomainOptions options)
+{
+  options.MostCubes = 1;
+  return options;
+}
+
+// Pairs of domains, judged on surfaces of few triangles.
+class ShellSearch
+{
+public:
+  ShellSearch(const SurfaceMesh& outer, const SegmentDomain& core, const Execution& execution)
+    : Outer(outer)
+    , Core(core)
+    , Run(execution)
+    , FewOutside(Reduced(outer, FewTriangles, execution.Part(0.0, 0.1)))
+    , FewInside(Reduced(SurfaceMesh(core.Layout.Points, core.Layout.Triangles), FewTriangles,
+        execution.Part(0.1, 0.2)))
+    , FewCore(this->OnFew(FewInside, core))
+  {
+  }
+
+  // The outer surface's own domain, around the core.
+  void OfferOwn(const SegmentDomain& own)
+  {
+    const SegmentDomain turned = TurnedToward(own, this->Core);
+    this->Offer(this->OnFew(this->FewOutside, turned), this->FewCore,
+      [this, turned](const Execution&) {
+        return ShellDomains{ turned, this->Core };
+      });
+  }
+
+  // With its corners above those of the core, or near to them.
+  void OfferAround()
+  {
+    for (const std::vector<Vector3d>& corners :
+      { CornersAbove(this->FewOutside, this->FewCore.Layout),
+        CornersNear(this->FewOutside, this->FewCore) })
+    {
+      if (const auto few = WithCorners(this->FewOutside, this->Core, corners, this->Run))
+      {
+        this->Offer(*few, this->FewCore,
+          [this, corners](const Execution& run)
+          {
+            return ShellDomains{ DomainFromCorners(this->Outer, this->Core.Cubes, corners, run),
+              this->Core };
+          });
+      }
+    }
+  }
+
+  // The outer surface's own, and the inner surface with its corners near to those.
+  void OfferInside(const SegmentDomain& own, const SurfaceMesh& inner)
+  {
+    const std::vector<Vector3d> corners = CornersNear(this->FewInside, own);
+    if (const auto few = WithCorners(this->FewInside, own, corners, this->Run))
+    {
+      this->Offer(this->OnFew(this->FewOutside, own), *few,
+        [own, corners, &inner](const Execution& run) {
+          return ShellDomains{ own, DomainFromCorners(inner, own.Cubes, corners, run) };
+        });
+    }
+  }
+
+  // The best that can be laid out.
+  ShellDomains Best(const Execution& execution)
+  {
+    std::stable_sort(this->Found.begin(), this->Found.end(),
+      [](const Candidate& a, const Candidate& b) { return a.Quality > b.Quality; });
+    for (const Candidate& candidate : this->Found)
+    {
+      try
+      {
+        return candidate.LayOut(execution);
+      }
+      catch (const std::invalid_argument&)
+      {
+      }
+      catch (const std::runtime_error&)
+      {
+      }
+    }
+    throw std::runtime_error("Around the " + std::to_string(this->Core.Cubes.Cubes.size()) +
+                             " cubes inside, no domain of as many was found.");
+  }
+
+private:
+  using Layout = std::function<ShellDomains(const Execution&)>;
+
+  struct Candidate
+  {
+    double Quality; // of the hexahedra between
+    Layout LayOut;
+  };
+
+  void Offer(const SegmentDomain& outer, const SegmentDomain& inner, Layout layOut)
+  {
+    double quality = Hopeless;
+    try
+    {
+      quality = CoarseHexahedra(outer, inner, this->Run);
+    }
+    catch (const std::invalid_argument&)
+    {
+    }
+    this->Found.push_back({ quality, std::move(layOut) });
+  }
+
+  // As it is where it cannot be laid out there.
+  SegmentDomain OnFew(const SurfaceMesh& few, const SegmentDomain& domain) const
+  {
+    return WithCorners(few, domain, CornersOf(domain), this->Run).value_or(domain);
+  }
+
+  const SurfaceMesh& Outer;
+  const SegmentDomain& Core;
+  const Execution Run;
+  const SurfaceMesh FewOutside, FewInside;
+  const SegmentDomain FewCore;
+  std::vector<Candidate> Found;
+};
 }
 
 //------------------------------------------------------------------------------
@@ -181,46 +297,26 @@ SegmentDomain TurnedToward(const SegmentDomain& domain, const SegmentDomain& oth
 SegmentDomain DomainAround(const SurfaceMesh& outer, const SegmentDomain& inner,
   const DomainOptions& options, const Execution& execution)
 {
-  std::optional<SegmentDomain> best;
+  ShellSearch search(outer, inner, execution.Part(0.5, 0.9));
   if (inner.Cubes.Cubes.size() == 1)
   {
-    DomainOptions oneCube = options;
-    oneCube.MostCubes = 1;
-    best = TurnedToward(FindDomain(outer, oneCube, execution.Part(0.0, 0.7)), inner);
+    search.OfferOwn(FindDomain(outer, WithOneCube(options), execution.Part(0.0, 0.5)));
   }
-  for (const std::vector<Vector3d>& corners :
-    { CornersAbove(outer, inner.Layout), CornersNear(outer, inner) })
-  {
-    std::optional<SegmentDomain> found =
-      WithCorners(outer, inner, corners, execution.Part(0.7, 1.0));
-    if (found && (!best || Worth(*found, inner) > Worth(*best, inner)))
-    {
-      best = std::move(found);
-    }
-  }
-  if (!best)
-  {
-    throw std::runtime_error("Around the " + std::to_string(inner.Cubes.Cubes.size()) +
-                             " cubes inside, no domain of as many was found.");
-  }
-  return std::move(*best);
+  search.OfferAround();
+  return search.Best(execution.Part(0.9, 1.0)).Outer;
 }
 
 //------------------------------------------------------------------------------
 ShellDomains FindShell(const SurfaceMesh& outer, const SurfaceMesh& inner,
   const DomainOptions& options, const Execution& execution)
 {
-  DomainOptions oneCube = options;
-  oneCube.MostCubes = 1;
-  const SegmentDomain core = FindDomain(inner, oneCube, execution.Part(0.0, 0.4));
-  ShellDomains shell{ DomainAround(outer, core, options, execution.Part(0.4, 0.8)), core };
-  SegmentDomain own = FindDomain(outer, oneCube, execution.Part(0.8, 0.9));
-  std::optional<SegmentDomain> below =
-    WithCorners(inner, own, CornersNear(inner, own), execution.Part(0.9, 1.0));
-  if (below && Worth(own, *below) > Worth(shell.Outer, shell.Inner))
-  {
-    return { std::move(own), std::move(*below) };
-  }
-  return shell;
+  const DomainOptions oneCube = WithOneCube(options);
+  const SegmentDomain core = FindDomain(inner, oneCube, execution.Part(0.0, 0.3));
+  const SegmentDomain own = FindDomain(outer, oneCube, execution.Part(0.3, 0.6));
+  ShellSearch search(outer, core, execution.Part(0.6, 0.9));
+  search.OfferOwn(own);
+  search.OfferAround();
+  search.OfferInside(own, inner);
+  return search.Best(execution.Part(0.9, 1.0));
 }
 }

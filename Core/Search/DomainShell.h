@@ -17,9 +17,9 @@ SegmentDomain TurnedToward(const SegmentDomain& domain, const SegmentDomain& oth
 /**
  * A domain for a surface around another, with the same polycube: of one cube the domain found for
  * the surface itself, or one with its corners above those of the inner surface or at the points
- * nearest to them. What counts is the alignment of both surfaces, and that blocks between them are
- * not inverted, or else that their least ScaledJacobian is large. Of more cubes there is none for
- * the surface itself. Throws as FindDomain, and std::runtime_error where none can be laid out.
+ * nearest to them, whichever has the best hexahedra between (CoarseHexahedra.h), on surfaces of few
+ * triangles. Of more cubes there is none for the surface itself. Throws as FindDomain, and
+ * std::runtime_error where none can be laid out.
  */
 SegmentDomain DomainAround(const SurfaceMesh& outer, const SegmentDomain& inner,
   const DomainOptions& options, const Execution& execution);
@@ -31,8 +31,8 @@ struct ShellDomains
 
 /**
  * Domains of one cube for a surface and for one inside of it, turned outward too, that nobody else
- * has: the inner one's own and DomainAround it or, where that is better, the outer one's own with
- * the inner one's corners at the points nearest to its corners.
+ * has: the inner one's own and DomainAround it or, where the hexahedra between are better, the
+ * outer one's own with the inner one's corners at the points nearest to its corners.
  */
 ShellDomains FindShell(const SurfaceMesh& outer, const SurfaceMesh& inner,
   const DomainOptions& options, const Execution& execution);

@@ -34,7 +34,8 @@ struct DomainOptions
  * cubes with hexahedra closer than that, alignment decides.
  *
  * Candidates are found and judged on a surface of few triangles; a cube whose charts it does not
- * have, on the surface itself. Only the best is laid out there. A surface with too few triangles is
+ * have, on the surface itself. Only the best is laid out there; a cube from charts is judged again,
+ * for charts of the surface itself can be quite others. A surface with too few triangles is
  * cut finer. Borders of the best one are relaxed if wanted (RelaxedLayout.h).
  *
  * Throws std::invalid_argument for a surface of several pieces, std::runtime_error with the reasons

@@ -10,6 +10,7 @@ namespace
 using namespace trivariate;
 using Eigen::Vector3d;
 using trivariate_testing::Icosphere;
+using trivariate_testing::Moved;
 using trivariate_testing::SurfaceOf;
 
 double QualityOf(
@@ -49,6 +50,28 @@ TEST(CoarseHexahedra, OfABallAreGood)
   const double quality = QualityOf(Icosphere(4), Polycube::FromGrid({ 1, 1, 1 }), corners);
   EXPECT_GT(quality, 0.9);
   EXPECT_LT(quality, 0.96);
+}
+
+// Between two boxes; with the corners of the outer one a quarter turn farther, worse: nodes slide,
+// but not across sharp edges.
+TEST(CoarseHexahedra, OfAShellAreGoodWhereItIsNotTwisted)
+{
+  const Polycube cube = Polycube::FromGrid({ 1, 1, 1 });
+  const SurfaceMesh large = SurfaceOf(cube, 12);
+  const SurfaceMesh small =
+    Moved(large, [](const Vector3d& p) { return Vector3d(0.25 * Vector3d::Ones() + 0.5 * p); });
+  const std::vector<Vector3d> corners = BoxCorners({ 1.0, 1.0, 1.0 });
+  std::vector<Vector3d> inside, turned;
+  for (const Vector3d& c : corners)
+  {
+    inside.push_back(0.25 * Vector3d::Ones() + 0.5 * c);
+    turned.push_back({ 1.0 - c.y(), c.x(), c.z() });
+  }
+  const SegmentDomain inner = DomainFromCorners(small, cube, inside, Execution());
+  const auto quality = [&](const std::vector<Vector3d>& at)
+  { return CoarseHexahedra(DomainFromCorners(large, cube, at, Execution()), inner, Execution()); };
+  EXPECT_GT(quality(corners), 0.7);
+  EXPECT_LT(quality(turned), quality(corners) - 0.2);
 }
 
 // A plate that stands on a block: the cells of one cube that ends at its foot have good angles and

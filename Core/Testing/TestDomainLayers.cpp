@@ -5,11 +5,13 @@
 #include "Domain/LayoutCheck.h"
 #include "Domain/TriangleTree.h"
 #include "LayoutSurfaces.h"
+#include "Parameter/CoarseHexahedra.h"
 #include "Search/DomainShell.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <set>
 
@@ -339,6 +341,40 @@ TEST(DomainShell, GoesAroundSeveralCubes)
   ASSERT_EQ(shell.Blocks.size(), 14u);
   ExpectConforming(shell, 28);
   EXPECT_GT(Least(shell), 0.3);
+}
+
+// What is around a cup is long below it, and its own domain is aligned best, but hexahedra down to
+// the cup are not.
+TEST(DomainShell, IsJudgedByWhatIsBetween)
+{
+  // A ball's surface drawn into a cup, open below.
+  const SurfaceMesh cup = Moved(Icosphere(4),
+    [](const Point& p)
+    {
+      const double way = std::acos(p.z()) / M_PI; // from the top, around the rim to the inside
+      const double rim = std::clamp(10.0 * (way - 0.45), 0.0, 1.0), radius = 12.0 - 4.0 * rim;
+      const double angle = 1.9 * std::min({ way / 0.45, 1.0, (1.0 - way) / 0.45 });
+      const double across = std::max(std::hypot(p.x(), p.y()), 1e-12);
+      return Point(radius * std::sin(angle) * p.x() / across,
+        radius * std::sin(angle) * p.y() / across, radius * std::cos(angle));
+    });
+  const SurfaceMesh outside = Moved(Icosphere(4), [](const Point& p)
+    { return Point(13.0 * p.x(), 13.0 * p.y(), (p.z() > 0 ? 13.0 : 45.0) * p.z()); });
+  std::vector<Point> corners; // around the top, and on the rim
+  for (int i = 0; i < 8; ++i)
+  {
+    const double angle = i < 4 ? 1.9 : 0.9, radius = i < 4 ? 10.0 : 12.0;
+    const double across = radius * std::sin(angle) * std::sqrt(0.5);
+    corners.push_back(
+      { i & 1 ? across : -across, i & 2 ? across : -across, radius * std::cos(angle) });
+  }
+  const SegmentDomain inner =
+    DomainFromCorners(cup, Polycube::FromGrid({ 1, 1, 1 }), corners, Execution());
+  const SegmentDomain outer = DomainAround(outside, inner, DomainOptions(), Execution());
+  const SegmentDomain own = TurnedToward(FindDomain(outside, DomainOptions(), Execution()), inner);
+  EXPECT_GT(own.Alignment, outer.Alignment + 0.1);
+  EXPECT_GT(
+    CoarseHexahedra(outer, inner, Execution()), CoarseHexahedra(own, inner, Execution()) + 0.1);
 }
 
 TEST(DomainShell, RefusesDifferentPolycubes)
