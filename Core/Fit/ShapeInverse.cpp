@@ -14,11 +14,15 @@ namespace trivariate
 {
 namespace
 {
-void FindFromStarts(const InverseMap& inverse, const std::vector<double>& places,
-  std::vector<double>& parameters, std::vector<std::uint8_t>& found, const Execution& execution)
+// Whether each place is on the shape; takes its parameters, or starts, to those of the nearest
+// point.
+std::vector<std::uint8_t> FindAll(const InverseMap& inverse, const std::vector<double>& places,
+  bool hasStarts, std::vector<double>& parameters, const Execution& execution)
 {
+  constexpr double Anywhere = std::numeric_limits<double>::infinity();
   constexpr Index Batch = 1 << 16; // between two looks at the abort flag
-  const auto n = static_cast<Index>(found.size());
+  const auto n = static_cast<Index>(places.size() / 3);
+  std::vector<std::uint8_t> found(n);
   for (Index first = 0; first < n; first += Batch)
   {
     execution.Check(0.0);
@@ -27,10 +31,17 @@ void FindFromStarts(const InverseMap& inverse, const std::vector<double>& places
       {
         for (Index i = first + begin; i < first + end; ++i)
         {
-          found[i] = inverse.FindFrom(&places[3 * i], &parameters[3 * i]);
+          const double* place = &places[3 * i];
+          double* there = &parameters[3 * i];
+          found[i] = hasStarts ? inverse.FindNearestFrom(place, there) : inverse.Find(place, there);
+          if (!hasStarts && !found[i])
+          {
+            inverse.FindNearest(place, Anywhere, there);
+          }
         }
       });
   }
+  return found;
 }
 }
 
@@ -41,17 +52,10 @@ FoundParameters FindParametersOnShape(const TSpline& spline, const BezierMesh& m
   const InverseMap inverse(spline, mesh, execution);
   const Index n = static_cast<Index>(places.size() / 3);
   FoundParameters result;
-  std::vector<std::uint8_t> found(n);
-  if (starts.empty())
-  {
-    result.Parameters.resize(3 * n);
-    inverse.Find(n, places.data(), result.Parameters.data(), found.data(), execution);
-  }
-  else
-  {
-    result.Parameters = starts;
-    FindFromStarts(inverse, places, result.Parameters, found, execution);
-  }
+  result.Parameters = starts;
+  result.Parameters.resize(3 * n);
+  const std::vector<std::uint8_t> found =
+    FindAll(inverse, places, !starts.empty(), result.Parameters, execution);
   for (Index i = 0; i < n; ++i)
   {
     if (!found[i])
@@ -61,22 +65,17 @@ FoundParameters FindParametersOnShape(const TSpline& spline, const BezierMesh& m
   }
   const Index count = static_cast<Index>(result.Outside.size());
   result.Inside = n - count;
-  std::vector<double> lost(3 * count), parameters(3 * count);
+  std::vector<double> feet(3 * count), nearest(3 * count);
   for (Index k = 0; k < count; ++k)
   {
-    std::copy_n(&places[3 * result.Outside[k]], 3, &lost[3 * k]);
+    std::copy_n(&result.Parameters[3 * result.Outside[k]], 3, &feet[3 * k]);
   }
-  inverse.Find(count, lost.data(), parameters.data(), found.data(), execution,
-    std::numeric_limits<double>::infinity());
-  std::vector<double> nearest(3 * count);
   EvaluatorOutput output;
   output.Values = nearest.data();
-  Evaluator(spline, mesh, { 0, 1, 2 }, execution)
-    .Evaluate(count, parameters.data(), output, execution);
+  Evaluator(spline, mesh, { 0, 1, 2 }, execution).Evaluate(count, feet.data(), output, execution);
   for (Index k = 0; k < count; ++k)
   {
-    std::copy_n(&parameters[3 * k], 3, &result.Parameters[3 * result.Outside[k]]);
-    const double *x = &lost[3 * k], *y = &nearest[3 * k];
+    const double *x = &places[3 * result.Outside[k]], *y = &nearest[3 * k];
     result.Distances.push_back(std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]));
   }
   return result;

@@ -85,12 +85,16 @@ public:
          barrier *= Lowering)
     {
       this->Barrier = unit * barrier;
-      this->Minimise();
+      if (!this->Minimise())
+      {
+        break; // a lower one does not take out folds that this has left
+      }
     }
   }
 
 private:
-  void Minimise()
+  // Whether that led to a shape without folds.
+  bool Minimise()
   {
     double slid = std::numeric_limits<double>::max(); // the value when it slid last
     double shortest = 0.0;                            // step since then
@@ -129,6 +133,7 @@ private:
       failures = length > 0.0 || folds ? 0 : failures + 1;
     }
     this->Slide();
+    return folded < most;
   }
 
   // Moves the samples along the surface, and writes their squared errors as constant plus half of

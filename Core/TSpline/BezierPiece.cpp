@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BezierPiece.h"
 
+#include "TargetClones.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,6 +27,70 @@ double Dot(const Vector& x, const Vector& y)
   return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
 }
 
+// The least of 64 control points along a way; weights, if not null, are divided by.
+TRIVARIATE_CLONES double LeastAlong(
+  const double* way, const double* x, const double* y, const double* z, const double* weights)
+{
+  double along[64], least[8];
+  for (int n = 0; n < 64; ++n)
+  {
+    along[n] = way[0] * x[n] + way[1] * y[n] + way[2] * z[n];
+  }
+  for (int n = 0; weights && n < 64; ++n)
+  {
+    along[n] /= weights[n];
+  }
+  std::copy_n(along, 8, least);
+  for (int n = 8; n < 64; n += 8)
+  {
+    for (int k = 0; k < 8; ++k)
+    {
+      least[k] = along[n + k] < least[k] ? along[n + k] : least[k];
+    }
+  }
+  return *std::min_element(least, least + 8);
+}
+
+// Halves of all cubics along one direction (de Casteljau).
+template <int Stride>
+TRIVARIATE_INLINE void Halve(
+  const double* __restrict c, double* __restrict low, double* __restrict high)
+{
+  for (int first = 0; first < 64; first += 4 * Stride)
+  {
+    for (int n = first; n < first + Stride; ++n)
+    {
+      const int n1 = n + Stride, n2 = n1 + Stride, n3 = n2 + Stride;
+      const double c01 = 0.5 * (c[n] + c[n1]), c12 = 0.5 * (c[n1] + c[n2]),
+                   c23 = 0.5 * (c[n2] + c[n3]);
+      const double c012 = 0.5 * (c01 + c12), c123 = 0.5 * (c12 + c23);
+      low[n] = c[n];
+      low[n1] = c01;
+      low[n2] = c012;
+      low[n3] = high[n] = 0.5 * (c012 + c123);
+      high[n1] = c123;
+      high[n2] = c23;
+      high[n3] = c[n3];
+    }
+  }
+}
+
+TRIVARIATE_CLONES void HalveAlong(int axis, const double* c, double* low, double* high)
+{
+  if (axis == 0)
+  {
+    Halve<1>(c, low, high);
+  }
+  else if (axis == 1)
+  {
+    Halve<4>(c, low, high);
+  }
+  else
+  {
+    Halve<16>(c, low, high);
+  }
+}
+
 // The control point at a corner.
 int AtCorner(int corner)
 {
@@ -41,6 +107,7 @@ int AtCorner(int corner)
 BezierPiece::BezierPiece(
   const std::array<double, 6>& bounds, const double* coefficients, bool rational)
   : Box(bounds)
+  , IsRational(rational)
 {
   for (int a = 0; a < 3; ++a)
   {
@@ -97,11 +164,8 @@ double BezierPiece::LeastDistance(const Vector& point) const
     return Infinity;
   }
   const auto& [x, y, z, weight] = this->Form;
-  double least = Infinity;
-  for (int n = 0; n < 64; ++n)
-  {
-    least = std::min(least, (way[0] * x[n] + way[1] * y[n] + way[2] * z[n]) / weight[n]);
-  }
+  const double least = LeastAlong(
+    way.data(), x.data(), y.data(), z.data(), this->IsRational ? weight.data() : nullptr);
   return std::max((least - Dot(way, point)) / length, 0.0);
 }
 
@@ -134,25 +198,11 @@ std::array<BezierPiece, 2> BezierPiece::Halves() const
   std::array<BezierPiece, 2> halves = { *this, *this };
   const double middle = 0.5 * (this->Box[2 * axis] + this->Box[2 * axis + 1]);
   halves[0].Box[2 * axis + 1] = halves[1].Box[2 * axis] = middle;
-  for (int column = 0; column < 4; ++column)
+  const int columns = this->IsRational ? 4 : 3;
+  for (int column = 0; column < columns; ++column)
   {
-    const auto& c = this->Form[column];
-    auto& low = halves[0].Form[column];
-    auto& high = halves[1].Form[column];
-    for (int n = 0; n < 64; ++n)
-    {
-      if (n / stride % 4 == 0)
-      {
-        const int n1 = n + stride, n2 = n1 + stride, n3 = n2 + stride;
-        const double c01 = 0.5 * (c[n] + c[n1]), c12 = 0.5 * (c[n1] + c[n2]),
-                     c23 = 0.5 * (c[n2] + c[n3]);
-        low[n1] = c01;
-        low[n2] = 0.5 * (c01 + c12);
-        high[n1] = 0.5 * (c12 + c23);
-        high[n2] = c23;
-        low[n3] = high[n] = 0.5 * (low[n2] + high[n1]);
-      }
-    }
+    HalveAlong(axis, this->Form[column].data(), halves[0].Form[column].data(),
+      halves[1].Form[column].data());
   }
   return halves;
 }

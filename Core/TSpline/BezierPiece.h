@@ -32,6 +32,7 @@ public:
 
 private:
   std::array<double, 6> Box;
+  bool IsRational;
   std::array<std::array<double, 64>, 4> Form; // X, Y, Z times the weight, and the weight
 
   std::array<double, 3> ControlPoint(int n) const;

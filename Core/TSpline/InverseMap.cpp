@@ -413,18 +413,6 @@ bool InverseMap::Find(const double point[3], double parameters[3]) const
 }
 
 //------------------------------------------------------------------------------
-bool InverseMap::FindFrom(const double point[3], double parameters[3]) const
-{
-  Vector found = { parameters[0], parameters[1], parameters[2] };
-  if (this->IsAffine || !this->Newton({ point[0], point[1], point[2] }, found))
-  {
-    return this->Find(point, parameters);
-  }
-  std::copy(found.begin(), found.end(), parameters);
-  return true;
-}
-
-//------------------------------------------------------------------------------
 void InverseMap::Find(Index n, const double* points, double* parameters, std::uint8_t* found,
   const Execution& execution, double reach) const
 {

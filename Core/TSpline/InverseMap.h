@@ -47,9 +47,6 @@ public:
    */
   bool Find(const double point[3], double parameters[3]) const;
 
-  /// As Find, but goes from `parameters` first: where the point was on a geometry much like this.
-  bool FindFrom(const double point[3], double parameters[3]) const;
-
   /**
    * As Find, and where no cell maps there the parameters of the nearest point of the geometry, if
    * it is less than `reach` away: no other point is nearer by more than a thousandth. Pieces of
@@ -57,6 +54,11 @@ public:
    * affine and Find is.
    */
   bool FindNearest(const double point[3], double reach, double parameters[3]) const;
+
+  /// Goes from `parameters`, where the point was on a geometry much like this, to those of the
+  /// nearest point, wherever it is; true where that is the point itself, as in Find. A good start
+  /// spares most of the search.
+  bool FindNearestFrom(const double point[3], double parameters[3]) const;
 
   /// n points, by FindNearest where `reach` is not zero; parameters are zero where found[i] is 0.
   void Find(Index n, const double* points, double* parameters, std::uint8_t* found,

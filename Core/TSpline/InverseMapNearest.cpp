@@ -18,6 +18,8 @@ constexpr int MaximumSteps = 40, MaximumHalvings = 12;
 constexpr double SmallestGain = 1e-9;  // of the distance, in one step
 constexpr double WorthIt = 1.0 - 1e-3; // of the distance: what comes nearer than that is looked for
 
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+
 // The distance of a point from a box.
 double DistanceFrom(const std::array<double, 3>& low, const std::array<double, 3>& high,
   const std::array<double, 3>& point)
@@ -188,5 +190,33 @@ bool InverseMap::FindNearest(const double point[3], double reach, double paramet
     std::copy(nearest.Parameters.begin(), nearest.Parameters.end(), parameters);
   }
   return nearest.Distance < reach;
+}
+
+//------------------------------------------------------------------------------
+bool InverseMap::FindNearestFrom(const double point[3], double parameters[3]) const
+{
+  if (this->IsAffine)
+  {
+    return this->FindNearest(point, Infinity, parameters);
+  }
+  const Vector x = { point[0], point[1], point[2] };
+  Place nearest;
+  nearest.Parameters = { parameters[0], parameters[1], parameters[2] };
+  bool isThere = this->Newton(x, nearest.Parameters);
+  if (!isThere)
+  {
+    Place start;
+    start.Parameters = { parameters[0], parameters[1], parameters[2] };
+    nearest.Distance = Infinity;
+    const Index cell = this->Cells->FindCell(parameters[0], parameters[1], parameters[2]);
+    if (cell >= 0)
+    {
+      this->Approach(x, this->Cells->Bounds(cell), start, nearest);
+    }
+    this->NearestBelow(0, x, nearest);
+    isThere = nearest.Distance <= AcceptedResidual * this->Size;
+  }
+  std::copy(nearest.Parameters.begin(), nearest.Parameters.end(), parameters);
+  return isThere;
 }
 }

@@ -41,7 +41,7 @@ void ExpectRoundTrip(const TSpline& spline, std::mt19937& random, int points, do
     }
     // From anywhere else, too.
     found = RandomPoint(spline, random);
-    ASSERT_TRUE(inverse.FindFrom(x.data(), found.data()));
+    ASSERT_TRUE(inverse.FindNearestFrom(x.data(), found.data()));
     for (int a = 0; a < 3; ++a)
     {
       ASSERT_NEAR(found[a], u[a], tolerance);
@@ -99,6 +99,12 @@ void ExpectNearestOfBentCell(const Path& path, Point (*place)(const double at[2]
     ASSERT_TRUE(inverse.FindNearest(x.data(), std::numeric_limits<double>::infinity(), u.data()));
     ASSERT_TRUE(geometry.Evaluate(u.data(), { y.data() }));
     ASSERT_LE(distance(y), least + 1e-9) << x[0] << ' ' << x[1] << ' ' << x[2];
+    // From anywhere, too.
+    u = RandomPoint(spline, random);
+    const bool isInside = inverse.FindNearestFrom(x.data(), u.data());
+    ASSERT_TRUE(geometry.Evaluate(u.data(), { y.data() }));
+    ASSERT_LE(distance(y), 1.001 * least + 1e-9) << x[0] << ' ' << x[1] << ' ' << x[2];
+    ASSERT_EQ(isInside, distance(y) < 1e-8);
   }
 }
 }
