@@ -174,6 +174,32 @@ KnotLine CollectKnotLine(const Array5& knots)
 }
 
 //------------------------------------------------------------------------------
+// The ends of holes in direction a, with the values for the knot line.
+std::vector<std::array<double, 2>> HoleEnds(vtkPointSet* grid, int a)
+{
+  std::vector<std::array<double, 2>> ends;
+  vtkDataArray* holes = grid->GetFieldData()->GetArray("Holes");
+  if (!holes)
+  {
+    return ends;
+  }
+  if (holes->GetNumberOfComponents() != 6)
+  {
+    Fail("The field array \"Holes\" has " + std::to_string(holes->GetNumberOfComponents()) +
+         " components; 6 are needed.");
+  }
+  for (vtkIdType i = 0; i < holes->GetNumberOfTuples(); ++i)
+  {
+    ends.push_back({ holes->GetComponent(i, 2 * a), holes->GetComponent(i, 2 * a + 1) });
+    if (!std::isfinite(ends[i][0]) || !std::isfinite(ends[i][1]))
+    {
+      Fail("Hole " + std::to_string(i) + " has an end that is not finite.");
+    }
+  }
+  return ends;
+}
+
+//------------------------------------------------------------------------------
 // The local knots of direction a as indices into the line of their distinct values.
 void CopyKnots(vtkPointSet* grid, int a, TSpline& spline)
 {
@@ -191,6 +217,24 @@ void CopyKnots(vtkPointSet* grid, int a, TSpline& spline)
   }
   KnotLine& line = spline.KnotLines[a];
   line = CollectKnotLine(knots);
+  const std::vector<std::array<double, 2>> holes = HoleEnds(grid, a);
+  for (const auto& ends : holes)
+  {
+    line.insert(line.end(), ends.begin(), ends.end());
+  }
+  std::sort(line.begin(), line.end());
+  line.erase(std::unique(line.begin(), line.end()), line.end());
+  const auto numberOf = [&line](double value)
+  {
+    return static_cast<std::int32_t>(
+      std::lower_bound(line.begin(), line.end(), value) - line.begin());
+  };
+  spline.Holes.resize(holes.size());
+  for (std::size_t h = 0; h < holes.size(); ++h)
+  {
+    spline.Holes[h].Low[a] = numberOf(holes[h][0]);
+    spline.Holes[h].High[a] = numberOf(holes[h][1]);
+  }
   RecentValues found;
   for (std::size_t i = 0; i < knots.size(); ++i)
   {
@@ -199,7 +243,7 @@ void CopyKnots(vtkPointSet* grid, int a, TSpline& spline)
       std::int32_t& slot = found[knots[i][k]];
       if (slot < 0)
       {
-        slot = std::lower_bound(line.begin(), line.end(), knots[i][k]) - line.begin();
+        slot = numberOf(knots[i][k]);
       }
       spline.Functions[i][a][k] = slot;
     }
@@ -297,6 +341,19 @@ void TSplineToGrid(const TSplineModel& model, vtkUnstructuredGrid* grid)
   {
     std::copy(model.RootCells.begin(), model.RootCells.end(),
       AddArray<vtkIntArray>(grid->GetFieldData(), "RootCells", 3, 1));
+  }
+  if (!spline.Holes.empty())
+  {
+    double* ends = AddArray<vtkDoubleArray>(
+      grid->GetFieldData(), "Holes", 6, static_cast<vtkIdType>(spline.Holes.size()));
+    for (const IndexBox& hole : spline.Holes)
+    {
+      for (int a = 0; a < 3; ++a)
+      {
+        *ends++ = spline.KnotLines[a][hole.Low[a]];
+        *ends++ = spline.KnotLines[a][hole.High[a]];
+      }
+    }
   }
 }
 

@@ -15,7 +15,8 @@
  * No array is the active scalars: the attributes are control values, which range wider than the
  * field, and no colors that anyone should see without asking.
  *
- * Beside them the field array RootCells (int32 x 3) where the coarsest T-mesh is known.
+ * Beside them the field array RootCells (int32 x 3) where the coarsest T-mesh is known, and Holes
+ * (double x 6: u low, u high, v low, ...) where functions reach out of the domain.
  */
 #ifndef TSplineGrid_h
 #define TSplineGrid_h

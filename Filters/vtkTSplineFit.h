@@ -16,10 +16,11 @@
  * them there, and later splits carry them along; every voxel takes the parameters at which this
  * shape passes through it, and the attributes are fitted there. With block meshes the shape then
  * moves, its surface held, to where the errors of the attributes want it, and these are fitted
- * again, in turns and as long as that lowers the error. Blocks of one group are joined C2;
- * across other common faces the control points are the same on both sides, so there is no gap.
- * Between two segments that holds for their places; attributes are each segment's own, fitted to
- * the voxels with parameters in its blocks.
+ * again, in turns and as long as that lowers the error. Blocks of one group are joined C2, also
+ * where they do not fill a box: cells outside of them are switched off, and functions without
+ * support in them left out; across other common faces the control points are the same on both
+ * sides, so there is no gap. Between two segments that holds for their places; attributes are each
+ * segment's own, fitted to the voxels with parameters in its blocks.
  *
  * @par Input
  * Port 0: a vtkImageData with two or more points along each axis. The point array chosen with
@@ -40,7 +41,8 @@
  * Block (int32, zero), and one double array an attribute under the attribute's own name; see
  * Documentation/Arrays.md. vtkTSplineSource evaluates it, vtkTSplineWriter stores it.
  * Over a domain the Segment and Block of the polycube instead of zeros, and SharedControlPoint
- * (vtkIdType): functions that share a control point have the same number there.
+ * (vtkIdType): functions that share a control point have the same number there; and where blocks of
+ * a group do not fill a box the field data Holes (double x 6).
  * Port 1: a vtkTable with one row a round of solving and refining and the columns ControlPoints
  * (vtkIdType), RMS (100 x root mean square error / range of the attribute), MaximumError (share of
  * the range; NaN after a round that did not need it) and Seconds (since the start). Of several

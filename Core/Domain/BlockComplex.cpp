@@ -216,18 +216,6 @@ void BlockComplex::SplitGroups(const std::vector<LatticePoint>& places)
       }
     }
   }
-  for (const auto& [group, box] : this->GroupBoxes())
-  {
-    Index volume = 1;
-    for (int a = 0; a < 3; ++a)
-    {
-      volume *= box.second[a] - box.first[a];
-    }
-    if (sizes[group] < volume)
-    {
-      split.insert(group);
-    }
-  }
   for (int& group : this->Groups)
   {
     if (split.count(group) && sizes[group] > 1)
@@ -255,7 +243,14 @@ bool BlockComplex::IsJoined(const BlockFace& face) const
 //------------------------------------------------------------------------------
 Index BlockComplex::BlockAt(const std::array<double, 3>& parameter) const
 {
-  Index found = -1;
+  const std::vector<Index> found = this->BlocksAt(parameter);
+  return found.empty() ? -1 : found[0];
+}
+
+//------------------------------------------------------------------------------
+std::vector<Index> BlockComplex::BlocksAt(const std::array<double, 3>& parameter) const
+{
+  std::vector<Index> found;
   for (int side = 0; side < 8; ++side)
   {
     LatticePoint place;
@@ -266,11 +261,13 @@ Index BlockComplex::BlockAt(const std::array<double, 3>& parameter) const
       place[a] = static_cast<int>(below) - (side >> a & 1 && below == parameter[a] ? 1 : 0);
     }
     const auto at = this->BlockOfPlace.find(place);
-    if (at != this->BlockOfPlace.end() && (found < 0 || at->second < found))
+    if (at != this->BlockOfPlace.end())
     {
-      found = at->second;
+      found.push_back(at->second);
     }
   }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 

@@ -3,9 +3,10 @@
 /**
  * The blocks of a domain and how they are glued, with a place for each in one parameter space.
  *
- * Every block is a unit box at integer Origins. The boxes of one group adjoin as in their lattice
- * and are one grid of (u, v, w), across whose inner faces a spline is C2. Different groups lie
- * apart, and a spline is joined across their common faces by equal control points (C0).
+ * Every block is a unit box at integer Origins. The boxes of one group adjoin as in their lattice,
+ * as an L or a U, say, and are one grid of (u, v, w), across whose inner faces a spline is C2.
+ * Different groups lie apart, and a spline is joined across their common faces by equal control
+ * points (C0).
  */
 #ifndef trivariate_BlockComplex_h
 #define trivariate_BlockComplex_h
@@ -63,8 +64,7 @@ public:
    *
    * The blocks of a group become groups of their own, with numbers from the largest on, where a
    * face is glued other than in its lattice (the spline cannot be C2 across the group's own faces
-   * and match that neighbour too), and where they do not fill a box (a function across the step
-   * would reach out of the domain).
+   * and match that neighbour too).
    *
    * Throws std::invalid_argument, naming the block: lists of different lengths or empty; two blocks
    * of a group at one place, or neighbours there that do not have a face in common; blocks of one
@@ -100,7 +100,10 @@ public:
   /// The high end of the boxes of all groups; the low end is the origin.
   LatticePoint Extent() const;
 
-  /// The low and the high end of the box of each group, which its blocks fill.
+  /// All blocks whose closed unit box holds (u, v, w), ascending.
+  std::vector<Index> BlocksAt(const std::array<double, 3>& parameter) const;
+
+  /// The low and the high end of the box of each group; its blocks need not fill it.
   std::map<int, std::pair<LatticePoint, LatticePoint>> GroupBoxes() const;
 
   std::vector<std::array<Index, 8>> Blocks; ///< points of each

@@ -31,6 +31,9 @@ inline constexpr const char* Weight = "Weight";
 inline constexpr const char* Segment = "Segment";
 inline constexpr const char* Block = "Block";
 
+/// If the spline has holes: unsigned integers[m][6], the knots u low, u high, v low, ...
+inline constexpr const char* Holes = "Holes";
+
 /// The group of the attributes "0", "1", ..., each float64[n][components] with a string
 /// AttributeName.
 inline constexpr const char* Attributes = "Attributes";

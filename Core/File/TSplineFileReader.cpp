@@ -139,6 +139,31 @@ void ReadKnots(DatasetReader& reader, int a, const Execution& execution, TSpline
 }
 
 //------------------------------------------------------------------------------
+void ReadHoles(
+  DatasetReader& reader, double maximumBytes, const Execution& execution, TSpline& spline)
+{
+  if (!reader.Has(file::Holes))
+  {
+    return;
+  }
+  const Dataset holes = reader.Open(file::Holes, DatasetReader::UnsignedInteger, { 0, 6 });
+  if (static_cast<double>(holes.Rows) * sizeof(IndexBox) > maximumBytes)
+  {
+    throw std::runtime_error("It has too many holes for the memory that may be used.");
+  }
+  spline.Holes.resize(holes.Rows);
+  holes.ReadRows<std::int32_t>(H5T_NATIVE_INT32, execution,
+    [&](std::uint64_t row, const std::int32_t* values)
+    {
+      for (int a = 0; a < 3; ++a)
+      {
+        spline.Holes[row].Low[a] = values[2 * a];
+        spline.Holes[row].High[a] = values[2 * a + 1];
+      }
+    });
+}
+
+//------------------------------------------------------------------------------
 // X, Y, Z and the attributes; all is opened and checked before the first is read.
 void ReadControlPoints(
   DatasetReader& reader, double maximumBytes, const Execution& execution, TSplineModel& model)
@@ -209,6 +234,7 @@ TSplineModel ReadModel(
   {
     ReadKnots(reader, a, execution, spline);
   }
+  ReadHoles(reader, maximumBytes, execution, spline);
   ReadControlPoints(reader, maximumBytes, execution, model);
   ReadIntegers(file, file::RootCells, model.RootCells.data(), 3);
 

@@ -205,6 +205,18 @@ void WriteDatasets(DatasetWriter& writer, const TSplineModel& model)
       [&](Index i, std::int32_t* row)
       { std::copy(spline.Functions[i][a].begin(), spline.Functions[i][a].end(), row); });
   }
+  if (!spline.Holes.empty())
+  {
+    writer.Write<std::int32_t>(file::Holes, H5T_STD_U32LE, H5T_NATIVE_INT32, spline.Holes.size(), 6,
+      [&](Index i, std::int32_t* row)
+      {
+        for (int a = 0; a < 3; ++a)
+        {
+          *row++ = spline.Holes[i].Low[a];
+          *row++ = spline.Holes[i].High[a];
+        }
+      });
+  }
   writer.Write<double>(file::Points, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, n, 3,
     [&](Index i, double* row) { std::copy_n(spline.ControlPoint(i), 3, row); });
   writer.Write<double>(file::Weight, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, n, 0,

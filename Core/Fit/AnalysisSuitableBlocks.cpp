@@ -15,14 +15,29 @@ namespace trivariate
 {
 namespace
 {
-// Indices of knots of the group's own box.
+// Indices of knots of the group's own box. Where its blocks do not fill that, functions without
+// support in a block stay in its own spline, with whatever control points: they change nothing in
+// the blocks.
 struct Group
 {
   GridIndex Low; // where that box begins
   AnalysisSuitableRule Rule;
   TSpline Spline;
-  Index First = 0; // its functions' place among those of all
+  std::vector<Index> Kept = {}; // the functions that have support in a block
+  Index First = 0;              // their place among those of all
 };
+
+BlendingFunction Shifted(BlendingFunction f, const GridIndex& by)
+{
+  for (int a = 0; a < 3; ++a)
+  {
+    for (std::int32_t& knot : f[a])
+    {
+      knot += by[a];
+    }
+  }
+  return f;
+}
 
 class AnalysisSuitableBlockRule : public RefinementRule
 {
@@ -32,7 +47,7 @@ public:
     , One(std::int32_t(1) << layout.Depth())
   {
     const BlockComplex& blocks = layout.Blocks();
-    Index first = 0;
+    this->GroupOf.resize(blocks.Size());
     for (const auto& [group, box] : blocks.GroupBoxes())
     {
       const TSpline spline = layout.MakeCoarsestGroup(box, cells);
@@ -41,16 +56,15 @@ public:
       {
         low[a] = box.first[a] * this->One;
       }
-      this->GroupOf.resize(blocks.Size());
       for (Index b = 0; b < blocks.Size(); ++b)
       {
         this->GroupOf[b] =
           blocks.Groups[b] == group ? static_cast<int>(this->Groups.size()) : this->GroupOf[b];
       }
-      this->Groups.push_back(
-        { low, *MakeAnalysisSuitableRule(spline, Closure::Narrow), spline, first });
-      first += spline.Size();
+      this->Groups.push_back({ low, *MakeAnalysisSuitableRule(spline, Closure::Narrow), spline });
     }
+    TSpline coarsest = layout.MakeCoarsest(cells, 0);
+    this->Give(coarsest);
   }
 
   std::unique_ptr<RefinementRule> Clone() const override
@@ -66,8 +80,8 @@ public:
     {
       const std::size_t g = this->GroupOfFunction(mark.Function);
       const Group& group = this->Groups[g];
-      marksOf[g].push_back(
-        { mark.Function - group.First, mark.Direction, mark.Knot - group.Low[mark.Direction] });
+      marksOf[g].push_back({ group.Kept[mark.Function - group.First], mark.Direction,
+        mark.Knot - group.Low[mark.Direction] });
     }
     for (std::size_t g = 0; g < this->Groups.size(); ++g)
     {
@@ -96,8 +110,12 @@ private:
     for (Group& group : this->Groups)
     {
       group.Spline.Components = spline.Components;
-      const double* points = spline.ControlPoint(group.First);
-      group.Spline.ControlPoints.assign(points, points + group.Spline.Size() * spline.Components);
+      group.Spline.ControlPoints.assign(group.Spline.Size() * spline.Components, 0.0);
+      for (std::size_t k = 0; k < group.Kept.size(); ++k)
+      {
+        std::copy_n(spline.ControlPoint(group.First + static_cast<Index>(k)), spline.Components,
+          group.Spline.ControlPoint(group.Kept[k]));
+      }
     }
   }
 
@@ -108,19 +126,19 @@ private:
     for (Group& group : this->Groups)
     {
       group.First = spline.Size();
-      for (BlendingFunction f : group.Spline.Functions)
+      group.Kept.clear();
+      for (Index i = 0; i < group.Spline.Size(); ++i)
       {
-        for (int a = 0; a < 3; ++a)
+        const BlendingFunction f = Shifted(group.Spline.Functions[i], group.Low);
+        if (HasSupportOutside(spline.Holes, f))
         {
-          for (std::int32_t& knot : f[a])
-          {
-            knot += group.Low[a];
-          }
+          const double* point = group.Spline.ControlPoint(i);
+          group.Kept.push_back(i);
+          spline.Functions.push_back(f);
+          spline.ControlPoints.insert(
+            spline.ControlPoints.end(), point, point + group.Spline.Components);
         }
-        spline.Functions.push_back(f);
       }
-      spline.ControlPoints.insert(spline.ControlPoints.end(), group.Spline.ControlPoints.begin(),
-        group.Spline.ControlPoints.end());
     }
     spline.Weights.assign(spline.Functions.size(), 1.0);
   }

@@ -107,36 +107,6 @@ private:
   std::int32_t One;
   std::vector<std::uint8_t> Bits;
 };
-
-class BlockRule : public RefinementRule
-{
-public:
-  BlockRule(const BlockSpline& layout, std::unique_ptr<RefinementRule> inner)
-    : Layout(&layout)
-    , Inner(std::move(inner))
-  {
-  }
-
-  std::unique_ptr<RefinementRule> Clone() const override
-  {
-    return std::make_unique<BlockRule>(*this->Layout, this->Inner->Clone());
-  }
-
-  void Refine(TSpline& spline, const std::vector<RefinementMark>& marks) override
-  {
-    std::vector<RefinementMark> wanted = marks;
-    do
-    {
-      this->Inner->Refine(spline, wanted);
-      wanted = this->Layout->CrossedTraces(spline);
-    } while (!wanted.empty());
-    this->Layout->MakePointsEqual(spline);
-  }
-
-private:
-  const BlockSpline* Layout;
-  std::unique_ptr<RefinementRule> Inner;
-};
 }
 
 //------------------------------------------------------------------------------
@@ -169,6 +139,36 @@ TSpline BlockSpline::MakeCoarsestGroup(
 }
 
 //------------------------------------------------------------------------------
+// What is no block of a group's box, in runs along u.
+void BlockSpline::AddHoles(
+  const std::pair<LatticePoint, LatticePoint>& box, std::vector<IndexBox>& holes) const
+{
+  const auto& [low, high] = box;
+  for (std::int32_t w = low[2]; w < high[2]; ++w)
+  {
+    for (std::int32_t v = low[1]; v < high[1]; ++v)
+    {
+      bool isInHole = false;
+      for (std::int32_t u = low[0]; u < high[0]; ++u)
+      {
+        const bool isHole =
+          this->BlockOfBox[u + Index(this->Size[0]) * (v + Index(this->Size[1]) * w)] < 0;
+        if (isHole && !isInHole)
+        {
+          holes.push_back({ { u * this->One, v * this->One, w * this->One },
+            { 0, (v + 1) * this->One, (w + 1) * this->One } });
+        }
+        if (isHole)
+        {
+          holes.back().High[0] = (u + 1) * this->One;
+        }
+        isInHole = isHole;
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 TSpline BlockSpline::MakeCoarsest(int cells, int attributes) const
 {
   if (cells < 1 || (cells & (cells - 1)) != 0 || cells > this->One)
@@ -183,6 +183,7 @@ TSpline BlockSpline::MakeCoarsest(int cells, int attributes) const
   }
   for (const auto& entry : this->Complex->GroupBoxes())
   {
+    this->AddHoles(entry.second, spline.Holes);
     for (BlendingFunction f : this->MakeCoarsestGroup(entry.second, cells).Functions)
     {
       for (int a = 0; a < 3; ++a)
@@ -192,7 +193,10 @@ TSpline BlockSpline::MakeCoarsest(int cells, int attributes) const
           knot += entry.second.first[a] * this->One;
         }
       }
-      spline.Functions.push_back(f);
+      if (HasSupportOutside(spline.Holes, f))
+      {
+        spline.Functions.push_back(f);
+      }
     }
   }
   spline.Components = 3 + attributes;
@@ -204,8 +208,23 @@ TSpline BlockSpline::MakeCoarsest(int cells, int attributes) const
 //------------------------------------------------------------------------------
 Index BlockSpline::BlockOf(const BlendingFunction& f) const
 {
-  const auto box = [this, &f](int a) { return Index(f[a][0] / this->One); };
-  return this->BlockOfBox[box(0) + this->Size[0] * (box(1) + this->Size[1] * box(2))];
+  const auto low = [this, &f](int a) { return Index(f[a][0] / this->One); };
+  const auto high = [this, &f](int a) { return Index((f[a][4] - 1) / this->One); };
+  for (Index w = low(2); w <= high(2); ++w)
+  {
+    for (Index v = low(1); v <= high(1); ++v)
+    {
+      for (Index u = low(0); u <= high(0); ++u)
+      {
+        const Index block = this->BlockOfBox[u + this->Size[0] * (v + this->Size[1] * w)];
+        if (block >= 0)
+        {
+          return block;
+        }
+      }
+    }
+  }
+  return -1;
 }
 
 //------------------------------------------------------------------------------
@@ -409,11 +428,5 @@ std::vector<int> BlockSpline::SegmentsOf(const TSpline& spline) const
     segments.push_back(this->Complex->Segments[this->BlockOf(f)]);
   }
   return segments;
-}
-
-//------------------------------------------------------------------------------
-std::unique_ptr<RefinementRule> MakeBlockRule(const BlockSpline& layout, const TSpline& coarsest)
-{
-  return std::make_unique<BlockRule>(layout, MakeKnotInsertionRule(coarsest));
 }
 }

@@ -5,12 +5,14 @@
  *
  * The knot lines cover the parameter space of a BlockComplex; every unit box has 2^Depth intervals.
  * Inside a group there are ordinary blending functions, clamped at the ends of its box, so groups
- * do not touch each other. On a face only functions with a knot four times there are not zero, and
- * what they are there, their trace, is a function of the two knot vectors along the face. Functions
- * with one trace on the two sides of a glued face share one control point: then both sides agree on
- * the face exactly, and so do all blocks around an edge or a corner. Between two segments they
- * share its place only, so that there is no gap, but attributes jump as the values of the voxels
- * do.
+ * do not touch each other. Where the blocks do not fill that box the rest is a hole of the spline,
+ * and functions without support in a block are dropped; others reach into the hole, so there the
+ * surface lies where it is by fitting, not by clamping. On a face only functions with a knot four
+ * times there are not zero, and what they are there, their trace, is a function of the two knot
+ * vectors along the face. Functions with one trace on the two sides of a glued face share one
+ * control point: then both sides agree on the face exactly, and so do all blocks around an edge or
+ * a corner. Between two segments they share its place only, so that there is no gap, but attributes
+ * jump as the values of the voxels do.
  */
 #ifndef trivariate_BlockSpline_h
 #define trivariate_BlockSpline_h
@@ -55,7 +57,7 @@ public:
   /// the box's low end; X, Y, Z are (u, v, w), and there are no attributes.
   TSpline MakeCoarsestGroup(const std::pair<LatticePoint, LatticePoint>& box, int cells) const;
 
-  /// The block in whose box the support of a function begins: its only one, or one of its group.
+  /// A block in the support of a function: its only one, or one of its group.
   Index BlockOf(const BlendingFunction& f) const;
 
   /// Points are numbered by their first functions. O(n).
@@ -93,6 +95,8 @@ private:
   std::pair<int, bool> AlongTrace(const BlockFace& face, Index traceFace, int d) const;
   RefinementMark ToMark(
     Index function, const BlockFace& face, Index traceFace, int d, std::int32_t knot) const;
+  void AddHoles(
+    const std::pair<LatticePoint, LatticePoint>& box, std::vector<IndexBox>& holes) const;
   bool IsShared(const BlockFace& face, Sharing what) const;
   template <typename Visit>
   void VisitTraces(const TSpline& spline, Sharing what, const Visit& visit) const;

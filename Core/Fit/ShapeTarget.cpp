@@ -81,19 +81,21 @@ std::vector<ShapeTarget::SheetKey> ShapeTarget::SheetsAt(
   const BlockComplex& blocks, const double* parameter) const
 {
   std::vector<SheetKey> keys;
-  const Index b = blocks.BlockAt({ parameter[0], parameter[1], parameter[2] });
-  for (int face = 0; b >= 0 && face < 6; ++face)
+  for (const Index b : blocks.BlocksAt({ parameter[0], parameter[1], parameter[2] }))
   {
-    const int a = face / 2, side = face % 2;
-    const FaceTwin& twin = blocks.Twin({ b, a, side });
-    const int own = blocks.Segments[b];
-    const int other = twin.Exists() ? blocks.Segments[twin.Face.Block] : -1;
-    if (other != own && parameter[a] == blocks.Origins[b][a] + side)
+    for (int face = 0; face < 6; ++face)
     {
-      const SheetKey key = std::minmax(own, other);
-      if (std::find(keys.begin(), keys.end(), key) == keys.end())
+      const int a = face / 2, side = face % 2;
+      const FaceTwin& twin = blocks.Twin({ b, a, side });
+      const int own = blocks.Segments[b];
+      const int other = twin.Exists() ? blocks.Segments[twin.Face.Block] : -1;
+      if (other != own && parameter[a] == blocks.Origins[b][a] + side)
       {
-        keys.push_back(key);
+        const SheetKey key = std::minmax(own, other);
+        if (std::find(keys.begin(), keys.end(), key) == keys.end())
+        {
+          keys.push_back(key);
+        }
       }
     }
   }

@@ -27,6 +27,10 @@ struct UsedKnots
         this->NewNumber[k] = 1;
       }
     }
+    for (const IndexBox& hole : spline.Holes)
+    {
+      this->NewNumber[hole.Low[a]] = this->NewNumber[hole.High[a]] = 1;
+    }
     for (std::size_t k = 0; k < this->NewNumber.size(); ++k)
     {
       if (this->NewNumber[k])
@@ -47,6 +51,7 @@ enum Mark : std::uint8_t
   FaceAtRow = 2,    // at its low side in the row direction
   FaceBelow = 4,
   Covered = 8, // by a support, and not yet by a rectangle of this layer
+  Hole = 16,
 };
 
 // How many of a changing set of rectangles cover each unit square of the layer, as the mixed second
@@ -115,6 +120,7 @@ public:
     , RowFaces(this->Columns, this->Rows)
     , FacesBelow(this->Columns, this->Rows)
     , Supports(this->Columns, this->Rows)
+    , Holes(this->Columns, this->Rows)
     , Marks(this->Columns * this->Rows)
     , Begun(this->Columns * this->Rows, -1)
   {
@@ -211,11 +217,30 @@ private:
         this->AddFunction(*f, begins ? 1 : -1);
       }
     }
+    for (const IndexBox& hole : this->Spline.Holes)
+    {
+      const auto knot = [this](const GridIndex& corner, int a)
+      { return this->Used[a].NewNumber[corner[a]]; };
+      const bool begins = knot(hole.Low, this->Up) == layer;
+      if (begins || knot(hole.High, this->Up) == layer)
+      {
+        this->Holes.Add(knot(hole.Low, this->Column), knot(hole.High, this->Column),
+          knot(hole.Low, this->Row), knot(hole.High, this->Row), begins ? 1 : -1);
+      }
+    }
     std::fill(this->Marks.begin(), this->Marks.end(), 0);
     this->ColumnFaces.MarkCovered(FaceAtColumn, this->Marks);
     this->RowFaces.MarkCovered(FaceAtRow, this->Marks);
     this->FacesBelow.MarkCovered(FaceBelow, this->Marks);
     this->Supports.MarkCovered(Covered, this->Marks);
+    if (!this->Spline.Holes.empty())
+    {
+      this->Holes.MarkCovered(Hole, this->Marks);
+      for (std::uint8_t& mark : this->Marks)
+      {
+        mark &= mark & Hole ? ~Covered : ~0;
+      }
+    }
   }
 
   // Whether the squares [column0, column1) of a row continue the rectangle above them.
@@ -311,7 +336,7 @@ private:
   Index Columns, Rows;
   Index MaximumBoxes;
   std::vector<std::vector<const BlendingFunction*>> FunctionsWithKnot;
-  RectangleCount ColumnFaces, RowFaces, FacesBelow, Supports;
+  RectangleCount ColumnFaces, RowFaces, FacesBelow, Supports, Holes;
   std::vector<std::uint8_t> Marks;
   std::vector<std::int32_t> Begun; // the last box that began with its low corner in this square
   std::vector<IndexBox> Boxes;

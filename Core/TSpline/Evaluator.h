@@ -5,8 +5,8 @@
  *
  * Works on the Bezier form of all cells, which it computes once and keeps: 512 bytes a cell and
  * component (and as much for the denominator unless it is one everywhere). Points at a knot take
- * the limit from the right, where nothing lies to the right from the left. No result depends on the number
- * of threads or on what other points are evaluated with it.
+ * the limit from the right, where nothing lies to the right from the left. No result depends on the
+ * number of threads or on what other points are evaluated with it.
  */
 #ifndef trivariate_Evaluator_h
 #define trivariate_Evaluator_h

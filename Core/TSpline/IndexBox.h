@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-/// Boxes of knot indices: cells, and supports of blending functions.
+/// Boxes of knot indices: cells, supports of blending functions, holes.
 #ifndef trivariate_IndexBox_h
 #define trivariate_IndexBox_h
 
-#include "TSpline.h"
+#include <array>
+#include <cstdint>
 
 namespace trivariate
 {
@@ -27,11 +28,6 @@ struct IndexBox
     return gaps == 0;
   }
 };
-
-inline IndexBox SupportOf(const BlendingFunction& f)
-{
-  return { { f[0][0], f[1][0], f[2][0] }, { f[0][4], f[1][4], f[2][4] } };
-}
 }
 
 #endif

@@ -6,6 +6,11 @@
 
 namespace trivariate
 {
+namespace
+{
+constexpr std::uint8_t InHole = 8;
+}
+
 //------------------------------------------------------------------------------
 KnotFaces::KnotFaces(const TSpline& spline)
 {
@@ -24,6 +29,18 @@ KnotFaces::KnotFaces(const TSpline& spline)
       for (const std::int32_t knot : f[a])
       {
         this->Insert(f, a, knot);
+      }
+    }
+  }
+  for (const IndexBox& hole : spline.Holes)
+  {
+    for (Index k = hole.Low[2]; k < hole.High[2]; ++k)
+    {
+      for (Index j = hole.Low[1]; j < hole.High[1]; ++j)
+      {
+        std::uint8_t* row = &this->Bits[j * this->Step[1] + k * this->Step[2]];
+        std::for_each(
+          row + hole.Low[0], row + hole.High[0], [](std::uint8_t& bits) { bits |= InHole; });
       }
     }
   }
@@ -55,18 +72,21 @@ bool KnotFaces::Crosses(const BlendingFunction& f, int direction, std::int32_t k
   const int b = direction == 0 ? 1 : 0;
   const int c = direction == 2 ? 1 : 2;
   const auto bit = static_cast<std::uint8_t>(1u << direction);
+  bool isFace = false;
   for (Index k = f[c][0]; k < f[c][4]; ++k)
   {
     const std::uint8_t* row = &this->Bits[knot * this->Step[direction] + k * this->Step[c]];
     for (Index j = f[b][0]; j < f[b][4]; ++j)
     {
-      if (!(row[j * this->Step[b]] & bit))
+      const std::uint8_t bits = row[j * this->Step[b]];
+      if (!(bits & (bit | InHole)))
       {
         return false;
       }
+      isFace = isFace || !(bits & InHole);
     }
   }
-  return true;
+  return isFace;
 }
 
 //------------------------------------------------------------------------------

@@ -132,14 +132,15 @@ public:
       }
       pool.Add(spline.Functions[i], 1.0, row.data());
     }
-    this->SplitAll(spline.KnotLines, pool);
+    this->SplitAll(spline, pool);
     this->Collect(pool, spline);
   }
 
 private:
   // The function with the largest support first. A child's support is smaller than its parent's, so
   // when a function's turn comes all that merges into it has done so, and it is split only once.
-  void SplitAll(const std::array<KnotLine, 3>& lines, FunctionPool& pool) const
+  // What is left without support in the domain is dropped.
+  void SplitAll(const TSpline& spline, FunctionPool& pool) const
   {
     std::priority_queue<Split> waiting;
     const auto enqueue = [this, &pool, &waiting](Index id)
@@ -160,7 +161,7 @@ private:
       const auto [volume, id, direction, knot] = waiting.top();
       waiting.pop();
       const BlendingFunction parent = pool.Functions[id];
-      const KnotLine& line = lines[direction];
+      const KnotLine& line = spline.KnotLines[direction];
       const LocalKnots& k = parent[direction];
       const KnotInsertion factor =
         InsertKnot({ line[k[0]], line[k[1]], line[k[2]], line[k[3]], line[k[4]] }, line[knot]);
@@ -174,6 +175,10 @@ private:
       for (const auto& [child, share] :
         { std::make_pair(first, factor.First), std::make_pair(second, factor.Second) })
       {
+        if (!HasSupportOutside(spline.Holes, child))
+        {
+          continue;
+        }
         const auto [childId, isNew] = pool.Add(child, share, row);
         if (isNew)
         {

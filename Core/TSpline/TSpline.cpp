@@ -87,7 +87,41 @@ std::string Validate(const TSpline& spline)
   {
     return "A control point is not finite.";
   }
+  for (std::size_t h = 0; h < spline.Holes.size(); ++h)
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      const std::int32_t low = spline.Holes[h].Low[a], high = spline.Holes[h].High[a];
+      if (low < 0 || low >= high || high >= static_cast<std::int32_t>(spline.KnotLines[a].size()))
+      {
+        fault << "Hole " << h << " is no box of knots in direction " << DirectionNames[a] << ".";
+        return fault.str();
+      }
+    }
+  }
   return {};
+}
+
+//------------------------------------------------------------------------------
+bool HasSupportOutside(const std::vector<IndexBox>& holes, const BlendingFunction& f)
+{
+  const IndexBox support = SupportOf(f);
+  const auto volumeIn = [&support](const IndexBox& box)
+  {
+    Index volume = 1;
+    for (int a = 0; a < 3; ++a)
+    {
+      volume *=
+        std::max(0, std::min(support.High[a], box.High[a]) - std::max(support.Low[a], box.Low[a]));
+    }
+    return volume;
+  };
+  Index inHoles = 0;
+  for (const IndexBox& hole : holes)
+  {
+    inHoles += volumeIn(hole);
+  }
+  return inHoles < volumeIn(support);
 }
 
 //------------------------------------------------------------------------------

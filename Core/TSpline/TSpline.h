@@ -6,12 +6,15 @@
  *   F(u, v, w) = sum_i w_i p_i B_i(u, v, w) / sum_i w_i B_i(u, v, w)        (the paper's eq. (9))
  *   B_i(u, v, w) = N[knots u](u) N[knots v](v) N[knots w](w)
  *
- * That is all there is: the T-mesh, the Bezier cells and everything else are rebuilt from it.
+ * That is all there is: the T-mesh, the Bezier cells and everything else are rebuilt from it. Only
+ * where the domain is an L, say, some boxes next to it are told too: functions reach into them, but
+ * there is no spline.
  */
 #ifndef trivariate_TSpline_h
 #define trivariate_TSpline_h
 
 #include "BSpline.h"
+#include "IndexBox.h"
 
 #include <array>
 #include <cstdint>
@@ -29,6 +32,11 @@ using LocalKnots = std::array<std::int32_t, 5>;
 /// A trivariate blending function: the local knot vectors in u, v and w.
 using BlendingFunction = std::array<LocalKnots, 3>;
 
+inline IndexBox SupportOf(const BlendingFunction& f)
+{
+  return { { f[0][0], f[1][0], f[2][0] }, { f[0][4], f[1][4], f[2][4] } };
+}
+
 /// Strictly increasing knot values of one direction; the first and last are the domain's ends.
 using KnotLine = std::vector<double>;
 
@@ -40,7 +48,8 @@ struct TSpline
   std::vector<double> Weights; ///< one a function, > 0
   int Components = 0;          ///< numbers a control point: X, Y, Z, then the attributes
   std::vector<double>
-    ControlPoints; ///< Functions.size() rows of Components numbers, p_i of eq. (9)
+    ControlPoints;             ///< Functions.size() rows of Components numbers, p_i of eq. (9)
+  std::vector<IndexBox> Holes; ///< disjoint boxes that are no part of the domain
 
   Index Size() const { return static_cast<Index>(this->Functions.size()); }
 
@@ -59,6 +68,9 @@ struct TSpline
 /// Empty when the spline is sound (sizes agree, knots increase and are in range, numbers finite,
 /// weights positive); otherwise one sentence that names the first fault and its place.
 std::string Validate(const TSpline& spline);
+
+/// Whether a part of the support of a function is in none of some disjoint holes.
+bool HasSupportOutside(const std::vector<IndexBox>& holes, const BlendingFunction& f);
 
 /**
  * The tensor-product spline on every `stride[a]`-th knot of the lines (each stride divides the

@@ -19,8 +19,7 @@ bool IsTSplineArrayName(const std::string& name)
 namespace
 {
 // Numbers of knots on one line as those on another that has all of its knots.
-void Renumber(
-  const KnotLine& from, const KnotLine& to, int direction, std::vector<BlendingFunction>& functions)
+void Renumber(const KnotLine& from, const KnotLine& to, int direction, TSpline& spline)
 {
   std::vector<std::int32_t> number;
   for (const double knot : from)
@@ -28,13 +27,30 @@ void Renumber(
     number.push_back(
       static_cast<std::int32_t>(std::lower_bound(to.begin(), to.end(), knot) - to.begin()));
   }
-  for (BlendingFunction& f : functions)
+  for (BlendingFunction& f : spline.Functions)
   {
     for (std::int32_t& knot : f[direction])
     {
       knot = number[knot];
     }
   }
+  for (IndexBox& hole : spline.Holes)
+  {
+    hole.Low[direction] = number[hole.Low[direction]];
+    hole.High[direction] = number[hole.High[direction]];
+  }
+}
+
+// Holes that no function reaches are those of other parts.
+void DropForeignHoles(TSpline& spline)
+{
+  const auto isForeign = [&spline](const IndexBox& hole)
+  {
+    return std::none_of(spline.Functions.begin(), spline.Functions.end(),
+      [&hole](const BlendingFunction& f) { return SupportOf(f).Overlaps(hole); });
+  };
+  spline.Holes.erase(
+    std::remove_if(spline.Holes.begin(), spline.Holes.end(), isForeign), spline.Holes.end());
 }
 
 // Cuts the lines to the knots between the first and the last that functions use: the part's domain.
@@ -55,6 +71,11 @@ void TrimKnotLines(TSpline& spline)
       {
         knot -= low;
       }
+    }
+    for (IndexBox& hole : spline.Holes)
+    {
+      hole.Low[a] = std::max(hole.Low[a] - low, 0);
+      hole.High[a] = std::min(hole.High[a], high) - low;
     }
     line = high < 0 ? line : KnotLine(line.begin() + low, line.begin() + high + 1);
   }
@@ -79,6 +100,7 @@ TSplineModel SegmentPart(const TSplineModel& model, std::int32_t segment)
   }
   TSplineModel part = model;
   RemoveFunctions(part.Spline, removed);
+  DropForeignHoles(part.Spline);
   TrimKnotLines(part.Spline);
   part.RootCells = part.Spline.Size() == model.Spline.Size()
                      ? model.RootCells
@@ -116,14 +138,15 @@ TSplineModel JoinParts(const TSplineModel& first, const TSplineModel& second)
     KnotLine& line = whole.Spline.KnotLines[a];
     line.clear();
     std::set_union(one.begin(), one.end(), other.begin(), other.end(), std::back_inserter(line));
-    Renumber(one, line, a, whole.Spline.Functions);
-    Renumber(other, line, a, part.Spline.Functions);
+    Renumber(one, line, a, whole.Spline);
+    Renumber(other, line, a, part.Spline);
   }
   const auto append = [](auto& to, const auto& from)
   { to.insert(to.end(), from.begin(), from.end()); };
   append(whole.Spline.Functions, part.Spline.Functions);
   append(whole.Spline.Weights, part.Spline.Weights);
   append(whole.Spline.ControlPoints, part.Spline.ControlPoints);
+  append(whole.Spline.Holes, part.Spline.Holes);
   append(whole.Segment, part.Segment);
   const std::int32_t blocks = 1 + *std::max_element(first.Block.begin(), first.Block.end());
   for (const std::int32_t block : part.Block)

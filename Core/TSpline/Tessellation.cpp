@@ -278,14 +278,23 @@ Tessellation TessellateSurface(
   const BezierMesh& mesh, int direction, double value, int subdivisions, const Execution& execution)
 {
   CheckSubdivisions(subdivisions);
-  const std::int32_t span = mesh.FindSpan(direction, value);
+  // The cells in which points of the surface are found: at a knot those behind it, or where none
+  // follows, at the end of a group of blocks or at a hole, those before it.
   std::vector<Index> cells;
   for (Index cell = 0; cell < mesh.Size(); ++cell)
   {
-    const IndexBox& box = mesh.Box(cell);
-    if (box.Low[direction] <= span && span < box.High[direction])
+    const std::array<double, 6> bounds = mesh.Bounds(cell);
+    if (bounds[2 * direction] <= value && value <= bounds[2 * direction + 1])
     {
-      cells.push_back(cell);
+      std::array<double, 3> middle;
+      for (int a = 0; a < 3; ++a)
+      {
+        middle[a] = a == direction ? value : 0.5 * (bounds[2 * a] + bounds[2 * a + 1]);
+      }
+      if (mesh.FindCell(middle[0], middle[1], middle[2]) == cell)
+      {
+        cells.push_back(cell);
+      }
     }
   }
   const auto axis = [&](int a)

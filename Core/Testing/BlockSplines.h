@@ -23,6 +23,7 @@ inline std::vector<NamedComplex> BlockShapes()
   return { { "cube", CubesComplex({ { 0, 0, 0 } }) },
     { "two cubes", CubesComplex({ { 0, 0, 0 }, { 1, 0, 0 } }) },
     { "L", CubesComplex({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }) },
+    { "U", CubesComplex({ { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0, 0 }, { 0, 1, 0 }, { 2, 1, 0 } }) },
     { "layered cube", LayeredCubeComplex() }, { "nested segments", NestedCubeComplex() },
     { "three around an edge", ThreeAroundAnEdge() },
     { "ring", BlockComplex({ { 0, 0, 3, 3, 4, 4, 7, 7 } }, { 0 }, { 0 }, { { 0, 0, 0 } }) } };

@@ -166,13 +166,17 @@ TEST(BlockComplex, SplitsGroupsThatOthersTouch)
   ExpectGroupsApart(shape);
 }
 
-TEST(BlockComplex, SplitsGroupsThatFillNoBox)
+TEST(BlockComplex, KeepsGroupsThatFillNoBox)
 {
   const BlockComplex shape = CubesComplex({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } });
-  EXPECT_EQ(shape.Groups, (std::vector<int>{ 1, 2, 3 }));
-  EXPECT_EQ(CountFaces(shape, &BlockComplex::IsGlued), 4);
+  EXPECT_EQ(shape.Groups, (std::vector<int>{ 0, 0, 0 }));
+  EXPECT_EQ(CountFaces(shape, &BlockComplex::IsGlued), 0);
+  EXPECT_EQ(CountFaces(shape, &BlockComplex::IsJoined), 4);
   ExpectTwinsToMatch(shape);
   ExpectGroupsApart(shape);
+  EXPECT_EQ(shape.BlockAt({ 1.5, 1.5, 0.5 }), -1);
+  EXPECT_EQ(shape.BlocksAt({ 1.0, 1.0, 0.5 }), (std::vector<Index>{ 0, 1, 2 }));
+  EXPECT_EQ(shape.BlocksAt({ 1.0, 1.5, 0.5 }), (std::vector<Index>{ 2 }));
 }
 
 TEST(BlockComplex, RefusesWhatIsNoDomain)

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BlockSplines.h"
+#include "TSpline/BezierMesh.h"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +22,8 @@ TEST(BlockSpline, SharesThePointsOfCommonFaces)
   };
   EXPECT_EQ(count(CubesComplex({ { 0, 0, 0 } })), 64);
   EXPECT_EQ(count(CubesComplex({ { 0, 0, 0 }, { 1, 0, 0 } })), 5 * 4 * 4);
-  EXPECT_EQ(count(CubesComplex({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } })), 64 + 48 + 48);
+  // All of a square's but those of its one corner that is no part of the L.
+  EXPECT_EQ(count(CubesComplex({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } })), (5 * 5 - 1) * 4);
   // The core, and three more layers of the 56 points on the surface of a 4 x 4 x 4 grid.
   EXPECT_EQ(count(LayeredCubeComplex()), 64 + 3 * 56);
   // The layers another segment: its attributes have the core's surface for themselves.
@@ -142,6 +144,67 @@ TEST(BlockSpline, SplitsBothSidesAlongAFaceOnly)
   for (Index b = 1; b < 7; ++b)
   {
     EXPECT_EQ(sizeOf(b), 4 * 4 * 5);
+  }
+}
+
+// Where blocks do not fill a box: cells tile the blocks and nothing else, and one cubic polynomial
+// over all of them is reproduced, across the faces between them and up to those of the hole.
+TEST(BlockSpline, LeavesHolesOut)
+{
+  for (const auto& places : { std::vector<LatticePoint>{ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } },
+         { { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0, 0 }, { 0, 1, 0 }, { 2, 1, 0 } },
+         { { 0, 0, 1 }, { 1, 0, 1 }, { 0, 1, 1 }, { 0, 0, 0 }, { 0, 0, 2 } } })
+  {
+    const BlockComplex blocks = CubesComplex(places);
+    const BlockSpline layout(blocks, 4);
+    for (unsigned seed = 0; seed < 4; ++seed)
+    {
+      std::mt19937 random(seed);
+      TSpline spline = layout.MakeCoarsest(seed % 2 ? 2 : 1, 0);
+      const TricubicPolynomial polynomial(random);
+      for (Index i = 0; i < spline.Size(); ++i)
+      {
+        spline.ControlPoint(i)[0] = polynomial.Coefficient(spline, i);
+      }
+      const auto rule = MakeBlockRule(layout, spline);
+      for (int round = 0; round < 8; ++round)
+      {
+        const Index b = static_cast<Index>(random() % blocks.Size());
+        rule->Refine(spline, RandomMarks(spline, RandomPointIn(blocks, b, random), 6, random));
+      }
+      const BezierMesh mesh(spline);
+      double volume = 0.0;
+      for (Index cell = 0; cell < mesh.Size(); ++cell)
+      {
+        const auto b = mesh.Bounds(cell);
+        volume += (b[1] - b[0]) * (b[3] - b[2]) * (b[5] - b[4]);
+        EXPECT_GE(
+          blocks.BlockAt({ 0.5 * (b[0] + b[1]), 0.5 * (b[2] + b[3]), 0.5 * (b[4] + b[5]) }), 0);
+      }
+      EXPECT_NEAR(volume, static_cast<double>(blocks.Size()), 1e-12);
+      const LatticePoint extent = blocks.Extent();
+      for (int trial = 0; trial < 200; ++trial)
+      {
+        Point x;
+        for (int a = 0; a < 3; ++a)
+        {
+          x[a] = Random(random, 0.0, extent[a]);
+        }
+        x[trial % 3] = trial % 2 ? std::round(x[trial % 3]) : x[trial % 3]; // on a face
+        const bool isInside = blocks.BlockAt(x) >= 0;
+        EXPECT_EQ(mesh.FindCell(x[0], x[1], x[2]) >= 0, isInside);
+        if (isInside)
+        {
+          const auto value = HomogeneousValue(spline, x);
+          EXPECT_NEAR(value[0], polynomial(x), 1e-10 * (1.0 + std::abs(polynomial(x))));
+          EXPECT_NEAR(value.back(), 1.0, 1e-12);
+        }
+      }
+      for (const BlendingFunction& f : spline.Functions)
+      {
+        EXPECT_TRUE(HasSupportOutside(spline.Holes, f));
+      }
+    }
   }
 }
 }

@@ -59,6 +59,30 @@ TEST(PointShares, GoByWhatBendsWithinAPart)
   EXPECT_NEAR(two[0], 1.0 / 3.0, 1e-12);
 }
 
+// Each part has its own holes.
+TEST(TSplineModelParts, KeepTheirHoles)
+{
+  const auto make = [](std::int32_t segment)
+  {
+    TSplineModel model;
+    const KnotLine line = MakeUniformKnotLine(0.0, segment, 4);
+    model.Spline = MakeTensorProduct({ line, line, line }, { 1, 1, 1 }, 0);
+    model.Spline.Holes = { { { 2, segment, 0 }, { 4, 4, 4 } } };
+    model.Segment.assign(model.Spline.Size(), segment);
+    model.Block.assign(model.Spline.Size(), 0);
+    return model;
+  };
+  const TSplineModel both = JoinParts(make(1), make(3));
+  ASSERT_EQ(Validate(both), "");
+  EXPECT_EQ(BezierMesh(both.Spline).Size(), 2 * 64 - 2 * 3 * 4 - 2 * 1 * 4);
+  for (const std::int32_t segment : { 1, 3 })
+  {
+    const TSplineModel part = SegmentPart(both, segment);
+    ASSERT_EQ(part.Spline.Holes.size(), 1u);
+    EXPECT_EQ(BezierMesh(part.Spline).Size(), 64 - 2 * (4 - segment) * 4);
+  }
+}
+
 // Each part keeps its own map and values, in boxes of parameter space apart from each other.
 TEST(TSplineModelParts, ComeApartAgainAfterTheyWereJoined)
 {

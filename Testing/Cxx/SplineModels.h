@@ -5,8 +5,8 @@
 #define SplineModels_h
 
 #include "TSpline/RefinementRule.h"
-#include "TSplineGrid.h"
 #include "TSpline/TSplineModel.h"
+#include "TSplineGrid.h"
 
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -130,6 +130,32 @@ inline vtkNew<vtkTSplineSource> MakeSource(const TSplineModel& model, int output
 inline vtkDataArray* PointArray(vtkDataObject* data, const char* name)
 {
   return vtkDataSet::SafeDownCast(data)->GetPointData()->GetArray(name);
+}
+
+/**
+ * An L of three cubes with the identity for its geometry: [0, 2] x [0, 2] x [0, 1] without what is
+ * beyond 1 in both u and v. The attribute Bend is u^2 + v w.
+ */
+inline TSplineModel Ell(int rounds = 0, unsigned seed = 1)
+{
+  TSplineModel model;
+  const KnotLine two = MakeUniformKnotLine(0.0, 2.0, 16), one = MakeUniformKnotLine(0.0, 1.0, 8);
+  TSpline& spline = model.Spline;
+  spline = MakeTensorProduct({ two, two, one }, { 8, 8, 8 }, 1);
+  spline.Holes = { { { 8, 8, 0 }, { 16, 16, 8 } } };
+  std::vector<char> removed;
+  for (Index i = 0; i < spline.Size(); ++i)
+  {
+    const Knots5 u = spline.LocalKnotValues(i, 0);
+    double* p = spline.ControlPoint(i);
+    p[3] = (u[1] * u[2] + u[1] * u[3] + u[2] * u[3]) / 3.0 + p[1] * p[2];
+    removed.push_back(!HasSupportOutside(spline.Holes, spline.Functions[i]));
+  }
+  RemoveFunctions(spline, removed);
+  model.Attributes = { { "Bend", 1 } };
+  RefineRandomly(spline, rounds, seed);
+  FinishModel(model);
+  return model;
 }
 }
 

@@ -51,7 +51,12 @@ inline bool Same(const TSplineModel& a, const TSplineModel& b)
               a.Spline.Functions == b.Spline.Functions &&
               SameBits(a.Spline.Weights, b.Spline.Weights) &&
               SameBits(a.Spline.ControlPoints, b.Spline.ControlPoints) && a.Segment == b.Segment &&
-              a.Block == b.Block && a.RootCells == b.RootCells;
+              a.Block == b.Block && a.RootCells == b.RootCells && a.Spline.Holes.size() == b.Spline.Holes.size();
+  for (std::size_t h = 0; same && h < a.Spline.Holes.size(); ++h)
+  {
+    same = a.Spline.Holes[h].Low == b.Spline.Holes[h].Low &&
+           a.Spline.Holes[h].High == b.Spline.Holes[h].High;
+  }
   for (int d = 0; d < 3; ++d)
   {
     same = same && SameBits(a.Spline.KnotLines[d], b.Spline.KnotLines[d]);

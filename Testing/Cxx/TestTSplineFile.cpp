@@ -26,6 +26,20 @@ TEST_F(TSplineFile, GivesBackEveryBit)
   EXPECT_EQ(this->CountFiles(), 1u);
 }
 
+TEST_F(TSplineFile, GivesBackHoles)
+{
+  TSplineModel model = RandomModel(3);
+  const auto last = [&model](int a)
+  { return static_cast<std::int32_t>(model.Spline.KnotLines[a].size()) - 1; };
+  model.Spline.Holes = { { { 0, 0, 0 }, { last(0), 1, last(2) } },
+    { { 0, 1, 0 }, { 1, last(1), 1 } } };
+  ASSERT_EQ(this->Write(model), "");
+  ASSERT_EQ(this->ReadError(), "");
+  EXPECT_TRUE(Same(this->Read, model));
+  model.Spline.Holes[0].High[0] = model.Spline.Holes[0].Low[0];
+  EXPECT_NE(this->Write(model).find("Hole 0"), std::string::npos);
+}
+
 TEST_F(TSplineFile, GivesBackLongKnotLinesAndManyChunks)
 {
   for (const std::size_t knots : { 256u, 257u, 65536u, 65537u })

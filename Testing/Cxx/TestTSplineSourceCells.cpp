@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "SplineModels.h"
 #include "TSpline/BisectionMesh.h"
 #include "TSpline/Evaluator.h"
-#include "SplineModels.h"
 
 #include "vtkCellData.h"
 #include "vtkGenericCell.h"
+#include "vtkImageData.h"
 #include "vtkMath.h"
 #include "vtkMeshQuality.h"
 #include "vtkPolyData.h"
@@ -53,6 +54,50 @@ void ExpectAnnulusValues(vtkDataSet* data, double tolerance)
     ASSERT_NEAR(radial->GetTuple1(i), x[0] * x[0] + x[1] * x[1], tolerance);
     ASSERT_NEAR(linear->GetComponent(i, 0), x[0] + 2.0 * x[1], tolerance);
     ASSERT_NEAR(linear->GetComponent(i, 1), x[2], tolerance);
+  }
+}
+
+// Where the domain is an L, functions reach into the corner that is no part of it, but no cell, no
+// surface and no point of an image is there; a copy through grid and file has the hole too.
+TEST(TSplineSourceCells, LeaveOutTheHoleOfAnEll)
+{
+  for (int rounds = 0; rounds < 8; rounds += 4)
+  {
+    vtkNew<vtkUnstructuredGrid> grid;
+    TSplineToGrid(Ell(rounds), grid);
+    const TSplineModel again = TSplineFromGrid(grid);
+    ASSERT_EQ(again.Spline.Holes.size(), 1u);
+    EXPECT_EQ(again.Spline.KnotLines[0][again.Spline.Holes[0].Low[0]], 1.0);
+    EXPECT_EQ(again.Spline.KnotLines[1][again.Spline.Holes[0].High[1]], 2.0);
+    vtkNew<vtkTSplineSource> source;
+    source->SetInputData(grid);
+    source->SetOutputType(vtkTSplineSource::LINEAR_HEXES);
+    source->SetSubdivisions(2);
+    source->Update();
+    EXPECT_NEAR(
+      Volume(vtkUnstructuredGrid::SafeDownCast(source->GetOutputDataObject(0))), 3.0, 1e-12);
+
+    vtkNew<vtkImageData> lattice;
+    lattice->SetDimensions(9, 9, 5);
+    lattice->SetOrigin(0.05, 0.05, 0.05);
+    lattice->SetSpacing(0.24, 0.24, 0.22);
+    source->SetOutputType(vtkTSplineSource::IMAGE);
+    source->SetInputData(1, lattice);
+    source->Update();
+    auto* image = vtkImageData::SafeDownCast(source->GetOutputDataObject(0));
+    vtkDataArray *bend = PointArray(image, "Bend"), *valid = PointArray(image, "vtkValidPointMask");
+    ASSERT_TRUE(bend && valid);
+    for (vtkIdType id = 0; id < image->GetNumberOfPoints(); ++id)
+    {
+      double x[3];
+      image->GetPoint(id, x);
+      const bool isInside = x[0] <= 1.0 || x[1] <= 1.0;
+      EXPECT_EQ(valid->GetTuple1(id) != 0.0, isInside) << x[0] << " " << x[1];
+      if (isInside)
+      {
+        EXPECT_NEAR(bend->GetTuple1(id), x[0] * x[0] + x[1] * x[2], 1e-10);
+      }
+    }
   }
 }
 
