@@ -27,6 +27,11 @@ constexpr int FinalIterations = 400;
 // inside, also where the chords of the block mesh cut them off.
 constexpr double Margin = 0.25;
 
+// A shape that is farther from its surface than this, in voxels, may have more points than its
+// share, up to this part of all: what attributes gain by points of their own is less than what it
+// takes from them.
+constexpr double TooFar = 0.35, MostOfFar = 0.5;
+
 // How often voxels that are still outside pull the surface over themselves.
 constexpr int Pulls = 4;
 
@@ -386,6 +391,14 @@ private:
              (!wantsMaximum || round.MaximumError <= stage.MaximumTolerance));
   }
 
+  Index MostPoints(const Stage& stage) const
+  {
+    const bool isFar = stage.Target && stage.Target->Slides() &&
+                       this->Result.Rounds.back().Rms > TooFar * this->Options.Spacing;
+    const auto ofFar = static_cast<Index>(MostOfFar * this->Options.MaximumControlPoints);
+    return isFar ? std::max(stage.MaximumPoints, ofFar) : stage.MaximumPoints;
+  }
+
   bool RefineOnce(Stage& stage)
   {
     std::vector<SplitGain> gains;
@@ -396,7 +409,7 @@ private:
     }
     this->Lap("indicator");
     const bool isRefined =
-      this->Marks.Refine(std::move(gains), stage.MaximumPoints, this->Result.Spline, this->Rule);
+      this->Marks.Refine(std::move(gains), this->MostPoints(stage), this->Result.Spline, this->Rule);
     this->Lap("refine");
     return isRefined;
   }

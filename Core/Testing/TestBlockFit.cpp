@@ -80,6 +80,30 @@ TEST(BlockFit, SlidesOnTheSurface)
   EXPECT_GT(fixed.ShapeRms, 2.0 * sliding.ShapeRms);
 }
 
+// A surface with more detail than its share of the control points can follow gets up to half of
+// them, and no more than its share where that does.
+TEST(BlockFit, GivesAShapeThatIsFarFromItsSurfaceMorePoints)
+{
+  const BallPhantom ball(24);
+  BlockFitOptions options = Options(700, 0.05);
+  options.MaximumShapePoints = 240;
+  const auto fit = [&](double depth)
+  {
+    ShapeSamples nodes = ball.Map.Nodes(12);
+    for (std::size_t i = 0; i < nodes.Places.size(); i += 3)
+    {
+      const double* x = &nodes.Places[i];
+      const double factor = 1.0 - depth * (1.0 + std::cos(10.0 * std::atan2(x[1], x[0])));
+      std::for_each(&nodes.Places[i], &nodes.Places[i] + 2, [factor](double& y) { y *= factor; });
+    }
+    return FitBlocks(ball.Map.Blocks, ball.Voxels, nodes, options, ThreadedExecution(2));
+  };
+  const BlockFitResult smooth = fit(0.0), wavy = fit(0.2);
+  EXPECT_LE(smooth.ShapePoints, 240);
+  EXPECT_GT(wavy.ShapePoints, 240);
+  EXPECT_LE(wavy.ShapePoints, 350);
+}
+
 // Where block meshes have a dent and leave voxels out, the surface is pulled over some of them
 // (over 23 of 52; a surface that stays where it is wanted covers none).
 TEST(BlockFit, CoversVoxelsOutsideOfTheMeshes)
