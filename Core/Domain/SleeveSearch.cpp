@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Unfolding.h"
 
+#include <array>
+#include <memory>
 #include <queue>
-#include <unordered_map>
+#include <vector>
 
 namespace trivariate
 {
 namespace
 {
 constexpr int FarthestStep = 4; // triangles crossed in one step of the search
+constexpr Crossing PageSize = 128;
 
 // A* over the middles of edges, each reached in one direction.
 class SleeveSearch
@@ -21,6 +24,7 @@ public:
     , To(to)
     , Target(mesh.Points[to.Point])
     , Goal(3 * mesh.NumberOfTriangles())
+    , Found(Goal / PageSize + 1)
   {
   }
 
@@ -44,9 +48,10 @@ public:
       {
         return this->WayToGoal();
       }
-      if (!this->Found[h].Done)
+      State& state = this->StateOf(h);
+      if (!state.Done)
       {
-        this->Found[h].Done = true;
+        state.Done = true;
         const double half = 0.5 * (this->Mesh.Points[LeftOf(this->Mesh, h)] -
                                     this->Mesh.Points[RightOf(this->Mesh, h)])
                                     .norm();
@@ -65,6 +70,7 @@ private:
     unsigned char Turns = 1; // from the parent: a leading one, then 1 for left and 0 for right
     bool Done = false;
   };
+  using Page = std::array<State, PageSize>;
 
   // A way straight on from the middle of an edge, at the origin, within a cone of view.
   struct View
@@ -76,6 +82,16 @@ private:
     Point2 LeftRay, RightRay; // what can be seen through all edges so far
   };
 
+  State& StateOf(Crossing h)
+  {
+    std::unique_ptr<Page>& page = this->Found[h / PageSize];
+    if (!page)
+    {
+      page = std::make_unique<Page>();
+    }
+    return (*page)[h % PageSize];
+  }
+
   Eigen::Vector3d Middle(Crossing h) const
   {
     return 0.5 *
@@ -84,7 +100,7 @@ private:
 
   void Reach(Crossing h, double distance, Crossing parent, unsigned turns)
   {
-    State& state = this->Found[h];
+    State& state = this->StateOf(h);
     if (distance < state.Distance)
     {
       state.Distance = distance;
@@ -104,7 +120,7 @@ private:
   {
     const Entered next = Enter(this->Mesh, view.Last);
     const Point2 apex = Unfold(this->Mesh, view.Last, next.Apex, view.Left, view.Right);
-    const double before = this->Found[view.Start].Distance;
+    const double before = this->StateOf(view.Start).Distance;
     if (next.Apex == this->To.Point && Sees(view, apex) &&
         std::binary_search(this->To.Sector.begin(), this->To.Sector.end(), next.LeftExit / 3))
     {
@@ -135,12 +151,12 @@ private:
     }
   }
 
-  std::vector<Crossing> WayToGoal() const
+  std::vector<Crossing> WayToGoal()
   {
     std::vector<Crossing> way;
-    for (Crossing h = this->Goal; this->Found.at(h).Parent >= 0;)
+    for (Crossing h = this->Goal; this->StateOf(h).Parent >= 0;)
     {
-      const State& state = this->Found.at(h);
+      const State& state = this->StateOf(h);
       std::vector<Crossing> step(1, state.Parent);
       int turns = 0;
       while (state.Turns >> (turns + 1))
@@ -165,8 +181,8 @@ private:
   const PathEnd& To;
   const Eigen::Vector3d Target;
   const Crossing Goal;
-  // Only what the search comes to: a path sees a small part of a large surface.
-  std::unordered_map<Crossing, State> Found;
+  // In pages, and only those that the search comes to: a path sees a small part of a large surface.
+  std::vector<std::unique_ptr<Page>> Found;
   using Candidate = std::pair<double, Crossing>;
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<Candidate>> Waiting;
 };
