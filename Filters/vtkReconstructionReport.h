@@ -20,8 +20,8 @@
  * spline of one segment stands for all voxels.
  * Port 2 (optional): vtkPolyData, the surfaces of the segments, by vtkSegmentBoundary or (patches)
  * vtkPolycubeDomain.
- * Port 3 (optional): vtkTable, the rounds of the fit; of its columns Seconds, RMS, Range, GradientJump and Domain
- * the last row of each segment (column Segment, if there is one) counts.
+ * Port 3 (optional): vtkTable, the rounds of the fit; of its columns Seconds, RMS, Range,
+ * GradientJump and Domain the last row of each segment (column Segment, if there is one) counts.
  *
  * @par Output
  * Port 0: vtkTable with one row a segment, ascending, and one with Segment -1 for all. Columns are
