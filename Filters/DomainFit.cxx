@@ -5,32 +5,24 @@
 #include "ChainStep.h"
 #include "DomainSamples.h"
 #include "DomainSelection.h"
-#include "Parameter/BlockCells.h"
 #include "SMPExecution.h"
 #include "SegmentPoints.h"
 #include "TSpline/BezierMesh.h"
 #include "TSplineGrid.h"
 #include "TSplinePoints.h"
-#include "vtkFrameField.h"
-#include "vtkHexRemesh.h"
 #include "vtkTSplineFit.h"
-#include "vtkVolumeParameterization.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
-#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkIdList.h"
-#include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
-#include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkStringArray.h"
 #include "vtkStructuredGrid.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
@@ -45,10 +37,6 @@ namespace trivariate
 {
 namespace
 {
-// Where the steps end, as shares of their progress.
-constexpr double Framed = 0.25, Parameterized = 0.85;
-
-//------------------------------------------------------------------------------
 // Takes parameters from the space of all blocks to that of some of them, `cells` among all.
 void MoveParameters(vtkImageData* image, const BlockComplex& all, const BlockComplex& own,
   const std::vector<vtkIdType>& cells)
@@ -76,131 +64,6 @@ void MoveParameters(vtkImageData* image, const BlockComplex& all, const BlockCom
     parameter->SetTuple(voxel, p.data());
   }
 }
-
-// Of cells, in voxels: two, or longer where more cells would fill the image than are untangled
-// within half a minute.
-double CellLength(vtkImageData* image)
-{
-  constexpr double mostCells = 30000.0;
-  return std::max(2.0, std::cbrt(static_cast<double>(image->GetNumberOfPoints()) / mostCells));
-}
-
-//------------------------------------------------------------------------------
-// Segments with a cell that is inverted somewhere.
-std::set<int> FoldedSegments(const FilledDomains& domains)
-{
-  std::set<int> folded;
-  vtkDataArray* owners = domains.Polycubes->GetCellData()->GetArray("Segment");
-  vtkNew<vtkIdList> ids;
-  for (unsigned int b = 0; b < domains.Blocks->GetNumberOfPartitionedDataSets(); ++b)
-  {
-    auto* grid = vtkStructuredGrid::SafeDownCast(domains.Blocks->GetPartition(b, 0));
-    std::vector<Eigen::Vector3d> places(grid->GetNumberOfPoints());
-    for (std::size_t p = 0; p < places.size(); ++p)
-    {
-      grid->GetPoint(static_cast<vtkIdType>(p), places[p].data());
-    }
-    for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
-    {
-      grid->GetCellPoints(cell, ids);
-      BlockPoints corners;
-      std::copy_n(ids->begin(), 8, corners.begin());
-      if (!(LeastDeterminant(places, corners) > 0.0))
-      {
-        folded.insert(static_cast<int>(owners->GetTuple1(b)));
-      }
-    }
-  }
-  return folded;
-}
-
-//------------------------------------------------------------------------------
-// Parameters of the segments with cubes, from an image with frames.
-FilledDomains Parameterize(vtkImageData* frames, vtkPolyData* patches,
-  vtkUnstructuredGrid* polycubes, Chain& chain, double from, double to)
-{
-  vtkNew<vtkVolumeParameterization> parameters;
-  parameters->SetController(nullptr);
-  parameters->SetInputData(0, frames);
-  parameters->SetInputData(1, patches);
-  parameters->SetInputData(2, polycubes);
-  parameters->SetCellLength(CellLength(frames));
-  ChainStep(parameters, chain, from, to).Run();
-  FilledDomains domains;
-  domains.Fields = vtkImageData::SafeDownCast(parameters->GetOutputDataObject(0));
-  domains.Polycubes = parameters->GetPolycube();
-  domains.Blocks = parameters->GetBlocks();
-  domains.Folded = FoldedSegments(domains);
-  vtkDataArray* owners = domains.Polycubes->GetCellData()->GetArray("Segment");
-  for (vtkIdType block = 0; block < domains.Polycubes->GetNumberOfCells(); ++block)
-  {
-    ++domains.BlocksOf[static_cast<int>(owners->GetTuple1(block))];
-  }
-  return domains;
-}
-}
-
-//------------------------------------------------------------------------------
-FilledDomains FillDomains(vtkImageData* image, vtkPolyData* patches, vtkUnstructuredGrid* polycubes,
-  Chain& chain, double from, double to)
-{
-  const auto at = [from, to](double share) { return from + (to - from) * share; };
-  vtkNew<vtkFrameField> frames;
-  frames->SetController(nullptr);
-  frames->SetInputData(0, image);
-  frames->SetInputData(1, patches);
-  ChainStep(frames, chain, from, at(Framed)).Run();
-  FilledDomains domains = Parameterize(vtkImageData::SafeDownCast(frames->GetOutputDataObject(0)),
-    patches, polycubes, chain, at(Framed), at(Parameterized));
-
-  const double* spacing = image->GetSpacing();
-  vtkNew<vtkHexRemesh> hexahedra;
-  hexahedra->SetEdgeLength(CellLength(image) * std::cbrt(spacing[0] * spacing[1] * spacing[2]));
-  hexahedra->SetInputDataObject(0, image);
-  hexahedra->SetInputDataObject(1, patches);
-  hexahedra->SetInputDataObject(2, polycubes);
-  hexahedra->SetInputDataObject(3, domains.Blocks);
-  ChainStep(hexahedra, chain, at(Parameterized), to).Run();
-  domains.Hexahedra = hexahedra->GetHexahedra();
-  // The remesher was given cells that are repaired already.
-  domains.Hexahedra->GetFieldData()
-    ->GetArray("InvertedCells")
-    ->SetComponent(
-      0, 0, domains.Fields->GetFieldData()->GetArray("InvertedCells")->GetComponent(0, 0));
-  return domains;
-}
-
-//------------------------------------------------------------------------------
-FilledDomains FillCubesAlone(
-  const FilledDomains& filled, vtkPolyData* patches, Chain& chain, double from, double to)
-{
-  const vtkNew<vtkUnstructuredGrid> cubes = WithoutLayers(filled.Polycubes);
-  vtkNew<vtkPolyData> theirs;
-  theirs->ShallowCopy(patches);
-  LeaveOutInverted(theirs, cubes);
-  return cubes->GetNumberOfCells() > 0 ? Parameterize(filled.Fields, theirs, cubes, chain, from, to)
-                                       : FilledDomains();
-}
-
-//------------------------------------------------------------------------------
-FittedPart RunFit(vtkTSplineFit* fit, const char* mask, const std::string& step,
-  const SegmentFitOptions& options, Chain& chain, double from, double to)
-{
-  fit->SetController(nullptr);
-  fit->SetInputArrayToProcess(
-    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, options.Array.c_str());
-  fit->SetMaskArray(mask);
-  for (const std::string& name : options.Further)
-  {
-    fit->AddAttribute(name.c_str());
-  }
-  fit->SetMaximumNumberOfControlPoints(options.MaximumControlPoints);
-  fit->SetRMSTolerance(options.RmsTolerance);
-  ChainStep(fit, chain, from, to, step).Run();
-  FittedPart part;
-  part.Model = TSplineFromGrid(fit->GetOutput());
-  part.Rounds = vtkTable::SafeDownCast(fit->GetOutputDataObject(1));
-  return part;
 }
 
 //------------------------------------------------------------------------------
@@ -278,53 +141,6 @@ FittedPart FitOverDomain(const FilledDomains& domains, vtkImageData* image, cons
   const bool layered = cubes->GetCellData()->GetArray("Patch")->GetRange()[1] >= 0.0;
   part.Domain = layered ? "LayeredCubes" : "Cubes";
   return part;
-}
-
-//------------------------------------------------------------------------------
-double LastRms(vtkTable* rounds)
-{
-  return rounds->GetValueByName(rounds->GetNumberOfRows() - 1, "RMS").ToDouble();
-}
-
-//------------------------------------------------------------------------------
-void AddRounds(const FittedPart& fitted, int segment, vtkTable* all)
-{
-  const char* names[] = { "Segment", "ControlPoints", "RMS", "MaximumError", "Seconds", "Range",
-    "GradientJump" };
-  vtkDataArray* jump = fitted.Rounds->GetFieldData()->GetArray("GradientJump");
-  if (all->GetNumberOfColumns() == 0)
-  {
-    for (const char* name : names)
-    {
-      vtkSmartPointer<vtkDataArray> column = vtkSmartPointer<vtkDoubleArray>::New();
-      if (name == names[0])
-      {
-        column = vtkSmartPointer<vtkIntArray>::New();
-      }
-      else if (name == names[1])
-      {
-        column = vtkSmartPointer<vtkIdTypeArray>::New();
-      }
-      column->SetName(name);
-      all->AddColumn(column);
-    }
-    vtkNew<vtkStringArray> domains;
-    domains->SetName("Domain");
-    all->AddColumn(domains);
-  }
-  for (vtkIdType row = 0; row < fitted.Rounds->GetNumberOfRows(); ++row)
-  {
-    for (const char* name : names)
-    {
-      vtkDataArray::SafeDownCast(all->GetColumnByName(name))
-        ->InsertNextTuple1(name == names[0]   ? segment
-                           : name == names[5] ? fitted.Range
-                           : name == names[6]
-                             ? (jump ? jump->GetTuple1(0) : 0.0)
-                             : fitted.Rounds->GetValueByName(row, name).ToDouble());
-    }
-    vtkStringArray::SafeDownCast(all->GetColumnByName("Domain"))->InsertNextValue(fitted.Domain);
-  }
 }
 
 //------------------------------------------------------------------------------

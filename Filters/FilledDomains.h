@@ -12,8 +12,12 @@
 #include <map>
 #include <set>
 
+class vtkPolyData;
+
 namespace trivariate
 {
+struct Chain;
+
 /// Frames, parameters and hexahedra of all segments with a domain.
 struct FilledDomains
 {
@@ -26,6 +30,21 @@ struct FilledDomains
   std::map<int, int> BlocksOf; ///< of the segments that have a domain: how many blocks
   std::set<int> Folded;        ///< those with an inverted cell in their blocks
 };
+
+/**
+ * What the filters vtkFrameField, vtkVolumeParameterization and vtkHexRemesh make of patches and
+ * polycubes, with their defaults but for the length of cells: at most 30,000 of them would fill the
+ * image. Throws as ChainStep does.
+ */
+FilledDomains FillDomains(vtkImageData* image, vtkPolyData* patches, vtkUnstructuredGrid* polycubes,
+  Chain& chain, double from, double to);
+
+/**
+ * The same domains without layers, where they have some, and without hexahedra. Where half of the
+ * cubes are inverted there is none.
+ */
+FilledDomains FillCubesAlone(
+  const FilledDomains& filled, vtkPolyData* patches, Chain& chain, double from, double to);
 }
 
 #endif

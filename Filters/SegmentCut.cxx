@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SegmentCut.h"
 
+#include "Fit/PointShares.h"
+
 #include "vtkDataArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -62,6 +64,21 @@ std::vector<Part> FindParts(
     partOf[voxel] = number[static_cast<std::int32_t>(labels->GetTuple1(voxel))];
   }
   return list;
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> FindShares(vtkImageData* image, vtkDataArray* values,
+  const std::vector<std::int32_t>& partOf, std::size_t parts, const Execution& execution)
+{
+  std::vector<double> copy(image->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    copy[i] = values->GetComponent(i, 0);
+  }
+  int size[3];
+  image->GetDimensions(size);
+  return PointShares(
+    { size[0], size[1], size[2] }, copy.data(), partOf, static_cast<int>(parts), execution);
 }
 
 //------------------------------------------------------------------------------

@@ -6,6 +6,8 @@
 #ifndef SegmentCut_h
 #define SegmentCut_h
 
+#include "Execution.h"
+
 #include "vtkImageData.h"
 #include "vtkSmartPointer.h"
 
@@ -29,6 +31,10 @@ struct Part
 /// Parts by ascending label in the point array Segment, and the number of its part for each voxel.
 std::vector<Part> FindParts(
   vtkImageData* image, vtkDataArray* values, std::vector<std::int32_t>& partOf);
+
+/// The share of the control points that each part should have, by PointShares.
+std::vector<double> FindShares(vtkImageData* image, vtkDataArray* values,
+  const std::vector<std::int32_t>& partOf, std::size_t parts, const Execution& execution);
 
 /// Some parts as one.
 Part UniteParts(const std::vector<Part>& parts, const std::vector<std::int32_t>& numbers);

@@ -5,7 +5,6 @@
 #include "ChainStep.h"
 #include "DomainFit.h"
 #include "DomainSamples.h"
-#include "Fit/PointShares.h"
 #include "SMPExecution.h"
 #include "SegmentCut.h"
 #include "TSplineGrid.h"
@@ -78,7 +77,6 @@ private:
     std::string Why;                // there is none; empty: there is one
   };
 
-  std::vector<double> FindShares(double from, double to) const;
   std::vector<Unit> FindUnits() const;
   int Fewest(std::int32_t number) const;
   std::vector<const FilledDomains*> DomainsOf(std::int32_t number) const;
@@ -87,6 +85,7 @@ private:
   CubesFit FitCubes(const Unit& unit, const FilledDomains& domains, const Limits& limits) const;
   std::string ImproveOverCubes(
     const Unit& unit, const std::vector<const FilledDomains*>& candidates, const Limits& limits);
+  vtkIdType CountPoints(const Unit& unit) const;
   void FitUnit(const Unit& unit, const std::vector<int>& controlPoints, double from, double to);
 
   vtkImageData* Image;
@@ -100,20 +99,6 @@ private:
   double Range;                    // of the first one over the whole image
   std::vector<std::string> Warnings;
 };
-
-//------------------------------------------------------------------------------
-std::vector<double> SegmentFitter::FindShares(double from, double to) const
-{
-  std::vector<double> copy(this->Image->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < this->Image->GetNumberOfPoints(); ++i)
-  {
-    copy[i] = this->Values->GetComponent(i, 0);
-  }
-  int size[3];
-  this->Image->GetDimensions(size);
-  return PointShares({ size[0], size[1], size[2] }, copy.data(), this->PartOf,
-    static_cast<int>(this->Parts.size()), SMPExecution(this->Outer.Filter, from, to));
-}
 
 //------------------------------------------------------------------------------
 // Those that it is to be fitted over. The lowest label takes what others miss, and has none.
@@ -191,18 +176,8 @@ SegmentFitOptions SegmentFitter::OptionsFor(const Part& part, int controlPoints)
 FittedPart SegmentFitter::FitBox(std::int32_t number, const Limits& limits) const
 {
   const Part& part = this->Parts[number];
-  const Cut cut = CutOut(this->Image, this->Parts, { number }, this->PartOf, this->Arrays);
-  vtkNew<vtkTSplineFit> fit;
-  fit->SetInputData(cut.Image);
-  FittedPart fitted = RunFit(fit, CutMaskName, "FitOverBox",
+  return FitOverBox(CutOut(this->Image, this->Parts, { number }, this->PartOf, this->Arrays), part,
     this->OptionsFor(part, limits.ControlPoints), this->Outer, limits.From, limits.To);
-  fitted.Model.Segment.assign(fitted.Model.Spline.Size(), part.Label);
-  // Its geometry is affine: the error of the round trip is that of the fit.
-  fitted.Range = part.High - part.Low;
-  const double rms = fitted.Range > 0.0 ? LastRms(fitted.Rounds) / 100.0 * fitted.Range : 0.0;
-  fitted.Squares = rms * rms * static_cast<double>(cut.Voxels.size());
-  fitted.Domain = "SegmentBox";
-  return fitted;
 }
 
 //------------------------------------------------------------------------------
@@ -233,6 +208,7 @@ SegmentFitter::CubesFit SegmentFitter::FitCubes(
     cubes.Why = reason.what();
     return cubes;
   }
+  fitted.Together = whole.Label;
   fitted.Range = whole.High - whole.Low;
   const auto all = static_cast<double>(cut.Voxels.size());
   double squares = 0.0;
@@ -250,14 +226,13 @@ SegmentFitter::CubesFit SegmentFitter::FitCubes(
     part.Squares = errors.Squares;
     squares += errors.Squares;
     cubes.Missed.insert(cubes.Missed.end(), errors.Missed.begin(), errors.Missed.end());
+    if (double(errors.Missed.size()) > MostMissed * double(voxels.size()))
+    {
+      cubes.Why = "the spline over cubes misses " + std::to_string(errors.Missed.size()) + " of " +
+                  std::to_string(voxels.size()) + " voxels.";
+    }
   }
-  const auto missed = static_cast<double>(cubes.Missed.size());
-  cubes.Error = squares / (all - missed);
-  if (missed > MostMissed * all)
-  {
-    cubes.Why = "the spline over cubes misses " + std::to_string(cubes.Missed.size()) + " of " +
-                std::to_string(cut.Voxels.size()) + " voxels.";
-  }
+  cubes.Error = squares / (all - static_cast<double>(cubes.Missed.size()));
   return cubes;
 }
 
@@ -306,6 +281,11 @@ std::string SegmentFitter::ImproveOverCubes(
   for (const vtkIdType voxel : missed)
   {
     this->PartOf[voxel] = 0;
+  }
+  if (isOverCubes && !why.empty() && this->Fitted[unit.front()].Domain == "Cubes")
+  {
+    this->Warnings.push_back("Segment " + std::to_string(this->Parts[unit.front()].Label) +
+                             " is fitted over cubes without layers: with layers, " + why);
   }
   return isOverCubes ? "" : why;
 }
@@ -367,7 +347,8 @@ void SegmentFitter::FitUnit(
 //------------------------------------------------------------------------------
 std::vector<std::string> SegmentFitter::Fit(double from, double to)
 {
-  const std::vector<double> shares = this->FindShares(from, from + ShareOfShares);
+  const std::vector<double> shares = FindShares(this->Image, this->Values, this->PartOf,
+    this->Parts.size(), SMPExecution(this->Outer.Filter, from, from + ShareOfShares));
   std::vector<Unit> units = this->FindUnits();
   const auto shareOf = [&shares](const Unit& unit)
   {
@@ -385,6 +366,12 @@ std::vector<std::string> SegmentFitter::Fit(double from, double to)
   for (std::size_t p = 0; p < this->Parts.size(); ++p)
   {
     reserved += this->Fewest(static_cast<std::int32_t>(p));
+  }
+  if (!this->Options.Compared && this->Options.Domains.front().BlocksOf.count(this->Parts[0].Label))
+  {
+    this->Warnings.push_back("Segment " + std::to_string(this->Parts[0].Label) +
+                             " is fitted over its bounding box: the lowest label takes the voxels "
+                             "that others miss.");
   }
   double at = from + ShareOfShares;
   const double width = to - at;
@@ -406,23 +393,34 @@ std::vector<std::string> SegmentFitter::Fit(double from, double to)
     this->FitUnit(unit, controlPoints, at, at + width * share);
     at += width * share;
     open -= share;
-    for (const std::int32_t number : unit)
-    {
-      left -= static_cast<double>(this->Fitted[number].Model.Spline.Size());
-    }
+    left -= static_cast<double>(this->CountPoints(unit));
   }
   return std::move(this->Warnings);
 }
 
 //------------------------------------------------------------------------------
+// Distinct ones; those of a fit of several are the first one's.
+vtkIdType SegmentFitter::CountPoints(const Unit& unit) const
+{
+  vtkIdType count = 0;
+  for (const std::int32_t number : unit)
+  {
+    const FittedPart& fitted = this->Fitted[number];
+    count += fitted.Together == this->Parts[number].Label ? LastControlPoints(fitted.Rounds) : 0;
+  }
+  return count;
+}
+
+//------------------------------------------------------------------------------
 SegmentFits SegmentFitter::Join(vtkTable* rounds) const
 {
-  SegmentFits whole{ {}, 0.0 };
+  SegmentFits whole{ {}, 0, 0.0 };
   double squares = 0.0;
   for (std::size_t p = 0; p < this->Parts.size(); ++p)
   {
     whole.Model = JoinParts(whole.Model, this->Fitted[p].Model);
     squares += this->Fitted[p].Squares;
+    whole.ControlPoints += this->CountPoints({ static_cast<std::int32_t>(p) });
     AddRounds(this->Fitted[p], this->Parts[p].Label, rounds);
   }
   vtkDataArray* labels = this->Image->GetPointData()->GetArray("Segment");

@@ -32,14 +32,16 @@ struct SegmentFitOptions
 struct SegmentFits
 {
   TSplineModel Model;
-  double RmsPercent; ///< of the round trip, of the first array's range over the whole image
+  vtkIdType ControlPoints; ///< distinct ones
+  double RmsPercent;       ///< of the round trip, of the first array's range over the whole image
 };
 
 /**
  * Fits the voxels of each label in the point array Segment over the label's bounding box, the
  * others masked; and those with domains also over their cubes with as many control points. Labels
- * whose blocks have faces in common are fitted together, so that there is no gap between them, or
- * where all boxes are better each by itself. The best one by the round trip is kept, or where they
+ * whose blocks have faces in common are fitted together over the first domains, so that there is no
+ * gap between them; or each by itself where boxes are better, blocks are folded, that fit fails or
+ * misses too many voxels. The best one by the round trip is kept, or where they
  * are not compared that over the cubes if it misses few voxels; `why` says for each label with a
  * domain why it is the box. Voxels that the spline over a domain misses get the lowest label.
  *

@@ -135,10 +135,17 @@ double SecondsOf(vtkTable* rounds, int segment)
   { return rounds ? vtkDataArray::SafeDownCast(rounds->GetColumnByName(name)) : nullptr; };
   vtkDataArray* seconds = columnOf("Seconds");
   vtkDataArray* segments = columnOf("Segment");
+  vtkDataArray* together = columnOf("Together");
   std::map<double, double> last;
   for (vtkIdType row = 0; seconds && row < rounds->GetNumberOfRows(); ++row)
   {
-    last[segments ? segments->GetTuple1(row) : AllSegments] = seconds->GetTuple1(row);
+    // The time of a fit of several counts once.
+    const double own = segments ? segments->GetTuple1(row) : AllSegments;
+    const bool isFirst = !together || together->GetTuple1(row) == own;
+    if (segment != AllSegments || isFirst)
+    {
+      last[own] = seconds->GetTuple1(row);
+    }
   }
   double sum = 0.0;
   bool known = false;
@@ -165,7 +172,8 @@ LastRound LastRoundOf(vtkTable* rounds, int segment)
     {
       last.Domain = rounds->GetValueByName(row, "Domain").ToString();
       const double range = rounds->GetValueByName(row, "Range").ToDouble();
-      last.Rms = rounds->GetValueByName(row, "RMS").ToDouble() / 100.0 * range;
+      const char* rms = rounds->GetColumnByName("SegmentRMS") ? "SegmentRMS" : "RMS";
+      last.Rms = rounds->GetValueByName(row, rms).ToDouble() / 100.0 * range;
       last.GradientJump = rounds->GetColumnByName("GradientJump")
                             ? rounds->GetValueByName(row, "GradientJump").ToDouble() * range
                             : SplineFacts::NaN;

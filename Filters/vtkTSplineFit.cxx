@@ -18,6 +18,7 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkIntArray.h"
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -92,6 +93,17 @@ void ReportShape(const BlockFitResult& result, Index voxels, double spacing, vtk
     field, "VoxelsInside", { number(result.VoxelsInside), number(voxels) });
   AddNumbers<vtkIdTypeArray>(field, "VoxelsNear", { number(result.VoxelsNear) });
   AddNumbers<vtkDoubleArray>(field, "SmallestJacobian", { result.SmallestJacobian });
+  vtkNew<vtkIntArray> segments;
+  segments->SetName("FittedSegment");
+  vtkNew<vtkDoubleArray> errors;
+  errors->SetName("FittedSegmentRMS");
+  for (const auto& [segment, rms] : result.SegmentRms)
+  {
+    segments->InsertNextValue(segment);
+    errors->InsertNextValue(100.0 * rms);
+  }
+  field->AddArray(segments);
+  field->AddArray(errors);
   AddNumbers<vtkDoubleArray>(field, "GradientJump", { result.Jump.Rms, result.Jump.Maximum });
   AddNumbers<vtkIdTypeArray>(field, "ShapeCells",
     { number(result.ShapeCells), number(result.FoldedCells), number(result.CertifiedCells) });

@@ -54,7 +54,9 @@
  * each of all control points), VoxelsInside (vtkIdType
  * x 2: voxels that the shape passes through, of how many), VoxelsNear (vtkIdType: others, up to
  * half a voxel away from it, which take their nearest point), SmallestJacobian (double: least
- * determinant of d(X, Y, Z)/d(u, v, w), in parts of its mean), ShapeCells (vtkIdType x 3: Bezier
+ * determinant of d(X, Y, Z)/d(u, v, w), in parts of its mean), FittedSegment (int32) and
+ * FittedSegmentRMS (double, percent of the range as RMS: the last round's in each of them),
+ * ShapeCells (vtkIdType x 3: Bezier
  * cells of the shape, those with a fold, those proven to have none) and GradientJump (double x 2:
  * root mean square and largest jump of an attribute's gradient in space across faces inside of a
  * segment that are joined by common control points only, in parts of its range a voxel).

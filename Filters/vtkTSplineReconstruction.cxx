@@ -3,10 +3,10 @@
 #include "vtkTSplineReconstruction.h"
 
 #include "ChainStep.h"
-#include "DomainFit.h"
 #include "DomainOutput.h"
 #include "DomainSelection.h"
 #include "FilterRun.h"
+#include "FittedPart.h"
 #include "GivenDomains.h"
 #include "ListProperty.h"
 #include "SMPExecution.h"
@@ -203,22 +203,25 @@ vtkDataArray* vtkTSplineReconstruction::ChosenLabels(vtkImageData* image)
 }
 
 //------------------------------------------------------------------------------
+// Those of all segments together.
+SegmentFitOptions vtkTSplineReconstruction::FitOptions(vtkImageData* image)
+{
+  SegmentFitOptions options;
+  options.Array = image->GetPointData()->GetArrayName(0);
+  options.Further = this->Attributes;
+  options.MaximumControlPoints = this->MaximumNumberOfControlPoints;
+  options.RmsTolerance = this->RMSTolerance;
+  return options;
+}
+
+//------------------------------------------------------------------------------
 // One spline over the whole image.
 vtkSmartPointer<vtkTSplineFit> vtkTSplineReconstruction::FitBox(
   vtkImageData* image, Chain& chain, double from, double to)
 {
   auto fit = vtkSmartPointer<vtkTSplineFit>::New();
-  fit->SetController(nullptr);
   fit->SetInputData(image);
-  fit->SetInputArrayToProcess(
-    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, image->GetPointData()->GetArrayName(0));
-  for (const std::string& name : this->Attributes)
-  {
-    fit->AddAttribute(name.c_str());
-  }
-  fit->SetMaximumNumberOfControlPoints(this->MaximumNumberOfControlPoints);
-  fit->SetRMSTolerance(this->RMSTolerance);
-  ChainStep(fit, chain, from, to, "FitOverBox").Run();
+  RunFit(fit, nullptr, "FitOverBox", this->FitOptions(image), chain, from, to);
   return fit;
 }
 
@@ -227,7 +230,7 @@ vtkSmartPointer<vtkTSplineFit> vtkTSplineReconstruction::FitBox(
 bool vtkTSplineReconstruction::IsBoxBetter(vtkTSplineFit* box, const SegmentFits& segments)
 {
   const double rms = LastRms(vtkTable::SafeDownCast(box->GetOutputDataObject(1)));
-  const Index points = box->GetOutput()->GetNumberOfPoints(), others = segments.Model.Spline.Size();
+  const Index points = box->GetOutput()->GetNumberOfPoints(), others = segments.ControlPoints;
   const bool meetTolerance = std::max(rms, segments.RmsPercent) <= this->RMSTolerance;
   const bool better = meetTolerance ? points <= others : rms <= segments.RmsPercent;
   if (better)
@@ -350,7 +353,7 @@ void vtkTSplineReconstruction::FitParts(vtkImageData* image, bool labelled,
   {
     vtkImageData::GetData(outputVector, FIELDS)->ShallowCopy(segments);
   }
-  SegmentFitOptions options;
+  SegmentFitOptions options = this->FitOptions(image);
   double range[2];
   segments->GetPointData()->GetArray("Segment")->GetRange(range);
   if (range[0] < range[1])
@@ -366,10 +369,6 @@ void vtkTSplineReconstruction::FitParts(vtkImageData* image, bool labelled,
       options.Domains = this->Fill(segments, surfaces, given, chain, outputVector);
     }
   }
-  options.Array = image->GetPointData()->GetArrayName(0);
-  options.Further = this->Attributes;
-  options.MaximumControlPoints = this->MaximumNumberOfControlPoints;
-  options.RmsTolerance = this->RMSTolerance;
   options.Compared = given.empty();
   std::vector<std::string> why;
   vtkTable* rounds = vtkTable::GetData(outputVector, ROUNDS);

@@ -15,13 +15,15 @@
  * domain is fitted again, over its cubes with layers and without (vtkFrameField,
  * vtkVolumeParameterization), with as many control points, and what is most accurate in the round
  * trip is kept. Segments whose domains share a surface, one around another or side by side, are
- * fitted over it together: there is no gap between them, while attributes jump; where boxes are
- * more accurate for them, or one has folds, each is fitted by itself. Then one spline is fitted
- * over the whole image, and if it is more accurate than all segments together (or, where both meet the tolerance, has fewer control points), it is the
- * result, and a warning says so. With Domain GIVEN the segments with a domain in the second input
- * are fitted over that. A warning tells why a segment with a domain stays with its box: half or
- * more of the blocks that were found are inverted between their corners, folds, voxels that are
- * missed. Up to 2 % of the voxels may be missed; these are counted to the lowest segment.
+ * fitted over it together, with layers: there is no gap between them, while attributes jump; where
+ * boxes are more accurate for them, or one has folds, each is fitted by itself. Then one spline is
+ * fitted over the whole image, and if it is more accurate than all segments together (or, where
+ * both meet the tolerance, has fewer control points), it is the result, and a warning says so. With
+ * Domain GIVEN the segments with a domain in the second input are fitted over that. A warning tells
+ * why a segment with a domain stays with its box, or with cubes without layers: half or more of the
+ * blocks that were found are inverted between their corners, folds, voxels that are missed. Up to 2
+ * % of a segment's voxels may be missed; these are counted to the lowest segment, which is
+ * therefore always fitted over its box.
  *
  * @par Input
  * Port 0: a vtkImageData with two or more points along each axis. The point array to fit is chosen
@@ -39,12 +41,13 @@
  * @par Output
  * Port 0: the T-spline grid; the control points' arrays Segment and Block tell whose they are.
  * Port 1: vtkTable, the rounds of all fits, with the columns of vtkTSplineFit; and, but not of
- * one spline over the whole image, Segment, Range (double, of the array in the segment, of which
- * RMS and MaximumError are parts), GradientJump (double, of vtkTSplineFit after the last round) and
- * Domain (string: SegmentBox, Cubes or LayeredCubes); segments that are fitted together have the
- * same rounds, with the range of both and all their points. Field data: Step (string) and StepSeconds (double), where the time went: the names of the filters
- * without "vtk", FitOverBox and FitOverCubes.
- * Unless Domain is BOX also:
+ * one spline over the whole image, Segment, Together (int32: the lowest of the segments that were
+ * fitted at once; they have the same rounds), Range (double, of the array in these, of which RMS
+ * and MaximumError are parts), SegmentRMS (double, percent of Range: what the last round left in
+ * the segment itself), GradientJump (double, root mean square, of vtkTSplineFit) and Domain
+ * (string: SegmentBox, Cubes or LayeredCubes). Field data: Step (string) and StepSeconds (double),
+ * where the time went: the names of the filters without "vtk", FitOverBox and FitOverCubes. Unless
+ * Domain is BOX also:
  * Port 2: the image with the point array Segment. Port 3: vtkPolyData, the surfaces of the segments
  * of vtkSegmentBoundary.
  * With Domain AUTOMATIC or GIVEN also, of those segments that have a domain:
@@ -94,6 +97,7 @@ namespace trivariate
 struct Chain;
 struct FilledDomains;
 struct GivenDomain;
+struct SegmentFitOptions;
 struct SegmentFits;
 }
 
@@ -191,6 +195,7 @@ private:
 
   std::vector<vtkDataArray*> ChosenArrays(vtkImageData* image);
   vtkDataArray* ChosenLabels(vtkImageData* image);
+  trivariate::SegmentFitOptions FitOptions(vtkImageData* image);
   vtkSmartPointer<vtkTSplineFit> FitBox(
     vtkImageData* image, trivariate::Chain& chain, double from, double to);
   bool IsBoxBetter(vtkTSplineFit* box, const trivariate::SegmentFits& segments);

@@ -31,7 +31,8 @@
  *   spline these are the cells that bisection left, rebuilt from the functions and the grid's field
  *   array RootCells; functions can have knots inside of them, which cut them into Bezier cells. (A
  *   cell that makes no difference to the functions may be shown halved.) Of all other splines, of
- *   the compact rule, without RootCells or with functions left out under a mask, they are the
+ *   the compact rule, over several blocks, without RootCells or with functions left out under a
+ * mask, they are the
  *   regions between the faces of all functions' knots: the Bezier cells themselves;
  * - POINTS: the data set of port 1 with the spline's values at its points.
  *

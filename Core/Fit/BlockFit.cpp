@@ -7,7 +7,7 @@
 #include "FitSteps.h"
 #include "RefinementHistory.h"
 #include "RefinementMarks.h"
-#include "ScatteredSystem.h"
+#include "SegmentErrors.h"
 #include "ShapeInverse.h"
 #include "ShapeJacobian.h"
 #include "ShapeSolver.h"
@@ -120,10 +120,10 @@ private:
   // Control points grow by a constant factor a round, so their logarithm tells the way done.
   double Progress() const
   {
-    const auto size = static_cast<double>(
-      this->Result.Rounds.empty() ? this->CoarsestSize : this->Result.Rounds.back().ControlPoints);
+    const std::vector<FitRound>& rounds = this->Result.Rounds;
     const auto root = static_cast<double>(this->CoarsestSize);
-    const double most = static_cast<double>(this->Options.MaximumControlPoints);
+    const double size = rounds.empty() ? root : static_cast<double>(rounds.back().ControlPoints);
+    const auto most = static_cast<double>(this->Options.MaximumControlPoints);
     return std::clamp(
       0.05 + 0.9 * std::log(size / root) / std::log(std::max(2.0, most / root)), 0.0, 0.99);
   }
@@ -199,6 +199,7 @@ private:
     {
       this->FollowData(stage, samples, target, shape, *rule);
     }
+    this->Result.SegmentRms = RmsOfSegments(this->Blocks, samples, system, stage.Scales);
     this->MeasureJump(stage);
   }
 
@@ -209,9 +210,8 @@ private:
     {
       units.push_back(this->Options.Spacing / scale);
     }
-    const TSpline& spline = this->Result.Spline;
-    for (const GradientJump& jump :
-      MeasureGradientJumps(this->Blocks, spline, stage.System.Mesh(), units, this->Run))
+    for (const GradientJump& jump : MeasureGradientJumps(
+           this->Blocks, this->Result.Spline, stage.System.Mesh(), units, this->Run))
     {
       this->Result.Jump.Rms = std::max(this->Result.Jump.Rms, jump.Rms);
       this->Result.Jump.Maximum = std::max(this->Result.Jump.Maximum, jump.Maximum);

@@ -22,6 +22,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <vector>
 
 namespace trivariate
@@ -80,7 +81,8 @@ struct BlockFitResult
   std::vector<Index> BlockOf; ///< of each function: its block, or one of its group
   Index ControlPoints = 0;    ///< distinct ones
   std::vector<FitRound> Rounds;
-  Index ShapePoints = 0; ///< distinct control points that the shape was fitted with
+  std::map<int, double> SegmentRms; ///< of the last round, each segment's, as FitRound::Rms
+  Index ShapePoints = 0;            ///< distinct control points that the shape was fitted with
   /// The numbers that the spline consists of beside its knots: three for each control point of the
   /// shape, which later splits only carry along, and the attributes of all control points.
   Index NumbersStored = 0;

@@ -156,6 +156,13 @@ TEST(BlockFit, JumpsBetweenSegmentsWithoutAGap)
   ball.Map.Blocks.Segments = nested.Segments;
   const BlockFitResult sharp = fit();
   EXPECT_LT(sharp.Rounds.back().Rms, 1e-3);
+  // The error of all is that of the two, each with its voxels.
+  const auto inCore = std::count_if(
+    ball.Voxels.Values.begin(), ball.Voxels.Values.end(), [](double value) { return value > 0.6; });
+  const double all = double(ball.Voxels.Count());
+  EXPECT_NEAR(inCore * std::pow(sharp.SegmentRms.at(0), 2) +
+                (all - inCore) * std::pow(sharp.SegmentRms.at(1), 2),
+    all * std::pow(sharp.Rounds.back().Rms, 2), 1e-6 * all * std::pow(sharp.Rounds.back().Rms, 2));
   EXPECT_GT(blurred, 20.0 * sharp.Rounds.back().Rms);
   EXPECT_LE(sharp.ControlPoints, 700);
   for (int f = 0; f < 6; ++f)

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FilledDomains.h"
+
+#include "ChainStep.h"
+#include "DomainSelection.h"
+#include "Parameter/BlockCells.h"
+#include "vtkFrameField.h"
+#include "vtkHexRemesh.h"
+#include "vtkVolumeParameterization.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkStructuredGrid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trivariate
+{
+namespace
+{
+// Where the steps end, as shares of their progress.
+constexpr double Framed = 0.25, Parameterized = 0.85;
+
+// Of cells, in voxels: two, or longer where more cells would fill the image than are untangled
+// within half a minute.
+double CellLength(vtkImageData* image)
+{
+  constexpr double mostCells = 30000.0;
+  return std::max(2.0, std::cbrt(static_cast<double>(image->GetNumberOfPoints()) / mostCells));
+}
+
+//------------------------------------------------------------------------------
+// Segments with a cell that is inverted somewhere.
+std::set<int> FoldedSegments(const FilledDomains& domains)
+{
+  std::set<int> folded;
+  vtkDataArray* owners = domains.Polycubes->GetCellData()->GetArray("Segment");
+  vtkNew<vtkIdList> ids;
+  for (unsigned int b = 0; b < domains.Blocks->GetNumberOfPartitionedDataSets(); ++b)
+  {
+    auto* grid = vtkStructuredGrid::SafeDownCast(domains.Blocks->GetPartition(b, 0));
+    std::vector<Eigen::Vector3d> places(grid->GetNumberOfPoints());
+    for (std::size_t p = 0; p < places.size(); ++p)
+    {
+      grid->GetPoint(static_cast<vtkIdType>(p), places[p].data());
+    }
+    for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+    {
+      grid->GetCellPoints(cell, ids);
+      BlockPoints corners;
+      std::copy_n(ids->begin(), 8, corners.begin());
+      if (!(LeastDeterminant(places, corners) > 0.0))
+      {
+        folded.insert(static_cast<int>(owners->GetTuple1(b)));
+      }
+    }
+  }
+  return folded;
+}
+
+//------------------------------------------------------------------------------
+// Parameters of the segments with cubes, from an image with frames.
+FilledDomains Parameterize(vtkImageData* frames, vtkPolyData* patches,
+  vtkUnstructuredGrid* polycubes, Chain& chain, double from, double to)
+{
+  vtkNew<vtkVolumeParameterization> parameters;
+  parameters->SetController(nullptr);
+  parameters->SetInputData(0, frames);
+  parameters->SetInputData(1, patches);
+  parameters->SetInputData(2, polycubes);
+  parameters->SetCellLength(CellLength(frames));
+  ChainStep(parameters, chain, from, to).Run();
+  FilledDomains domains;
+  domains.Fields = vtkImageData::SafeDownCast(parameters->GetOutputDataObject(0));
+  domains.Polycubes = parameters->GetPolycube();
+  domains.Blocks = parameters->GetBlocks();
+  domains.Folded = FoldedSegments(domains);
+  vtkDataArray* owners = domains.Polycubes->GetCellData()->GetArray("Segment");
+  for (vtkIdType block = 0; block < domains.Polycubes->GetNumberOfCells(); ++block)
+  {
+    ++domains.BlocksOf[static_cast<int>(owners->GetTuple1(block))];
+  }
+  return domains;
+}
+}
+
+//------------------------------------------------------------------------------
+FilledDomains FillDomains(vtkImageData* image, vtkPolyData* patches, vtkUnstructuredGrid* polycubes,
+  Chain& chain, double from, double to)
+{
+  const auto at = [from, to](double share) { return from + (to - from) * share; };
+  vtkNew<vtkFrameField> frames;
+  frames->SetController(nullptr);
+  frames->SetInputData(0, image);
+  frames->SetInputData(1, patches);
+  ChainStep(frames, chain, from, at(Framed)).Run();
+  FilledDomains domains = Parameterize(vtkImageData::SafeDownCast(frames->GetOutputDataObject(0)),
+    patches, polycubes, chain, at(Framed), at(Parameterized));
+
+  const double* spacing = image->GetSpacing();
+  vtkNew<vtkHexRemesh> hexahedra;
+  hexahedra->SetEdgeLength(CellLength(image) * std::cbrt(spacing[0] * spacing[1] * spacing[2]));
+  hexahedra->SetInputDataObject(0, image);
+  hexahedra->SetInputDataObject(1, patches);
+  hexahedra->SetInputDataObject(2, polycubes);
+  hexahedra->SetInputDataObject(3, domains.Blocks);
+  ChainStep(hexahedra, chain, at(Parameterized), to).Run();
+  domains.Hexahedra = hexahedra->GetHexahedra();
+  // The remesher was given cells that are repaired already.
+  domains.Hexahedra->GetFieldData()
+    ->GetArray("InvertedCells")
+    ->SetComponent(
+      0, 0, domains.Fields->GetFieldData()->GetArray("InvertedCells")->GetComponent(0, 0));
+  return domains;
+}
+
+//------------------------------------------------------------------------------
+FilledDomains FillCubesAlone(
+  const FilledDomains& filled, vtkPolyData* patches, Chain& chain, double from, double to)
+{
+  const vtkNew<vtkUnstructuredGrid> cubes = WithoutLayers(filled.Polycubes);
+  vtkNew<vtkPolyData> theirs;
+  theirs->ShallowCopy(patches);
+  LeaveOutInverted(theirs, cubes);
+  return cubes->GetNumberOfCells() > 0 ? Parameterize(filled.Fields, theirs, cubes, chain, from, to)
+                                       : FilledDomains();
+}
+}

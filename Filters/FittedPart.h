@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The fit of one segment, or of several together, and what its rounds tell.
+ */
+#ifndef FittedPart_h
+#define FittedPart_h
+
+#include "SegmentCut.h"
+#include "SegmentFits.h"
+
+#include "vtkSmartPointer.h"
+
+#include <string>
+
+class vtkTSplineFit;
+class vtkTable;
+
+namespace trivariate
+{
+struct FittedPart
+{
+  TSplineModel Model;
+  vtkSmartPointer<vtkTable> Rounds;
+  int Together = 0;     ///< the lowest label of those that the rounds are of
+  double Range = 0.0;   ///< of the array in them, of which the errors of Rounds are parts
+  double Squares = 0.0; ///< sum of the squared errors of the round trip
+  std::string Domain;   ///< SegmentBox, Cubes or LayeredCubes
+};
+
+/**
+ * Runs a fit that has its inputs, for the voxels that `mask` names (none: all) and as the options
+ * want it. Its time is that of the `step`. Throws as ChainStep does.
+ */
+FittedPart RunFit(vtkTSplineFit* fit, const char* mask, const std::string& step,
+  const SegmentFitOptions& options, Chain& chain, double from, double to);
+
+/// The voxels of one segment over its box.
+FittedPart FitOverBox(const Cut& cut, const Part& part, const SegmentFitOptions& options,
+  Chain& chain, double from, double to);
+
+/// The error that a fit ended with, in percent of the range of what it fitted.
+double LastRms(vtkTable* rounds);
+
+/// The distinct control points that it ended with.
+vtkIdType LastControlPoints(vtkTable* rounds);
+
+/// Adds the rounds of a fit to those of all, under a label.
+void AddRounds(const FittedPart& fitted, int segment, vtkTable* all);
+}
+
+#endif
