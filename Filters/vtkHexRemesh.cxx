@@ -128,8 +128,9 @@ void vtkHexRemesh::Remesh(vtkInformationVector** inputVector, vtkInformationVect
   const double cells = CountCells(SizesOf(domain, options));
   if (cells > static_cast<double>(this->MostCells))
   {
-    throw std::invalid_argument("The mesh would have " + std::to_string(cells) +
-                                " cells, more than MostCells; choose a larger EdgeLength.");
+    throw std::invalid_argument(
+      "The mesh would have " + std::to_string(cells) + " cells, more than MostCells; choose " +
+      (this->CellsPerBlock > 0 ? "fewer CellsPerBlock." : "a larger EdgeLength."));
   }
   const Execution execution = SMPExecution(this, 0.0, 0.95);
   BlockMeshReport report;

@@ -107,18 +107,17 @@ def parameterize(volume, edge):
     density = array_of(image, "Density")
     values = [float(t) for t in thresholds.rstrip("+").split(",")]
     inside = density > values[0]
-    topology = vtkSegmentTopology()
     if thresholds.endswith("+"):
         set_array(image, "Segment", inside.astype(numpy.int32))
-        topology.SetInputData(image)
-        topology.SetLargestCavity(2**31 - 1)
-        topology.Update()
-        inside = array_of(topology.GetOutput(), "Segment") > 0
+        filled = vtkSegmentTopology()
+        filled.SetInputData(image)
+        filled.SetLargestCavity(2**31 - 1)
+        filled.Update()
+        inside = array_of(filled.GetOutput(), "Segment") > 0
     labels = inside * (1 + sum((density > value).astype(int) for value in values[1:]))
     set_array(image, "Segment", labels.astype(numpy.int32))
+    topology, boundary, domain = vtkSegmentTopology(), vtkSegmentBoundary(), vtkPolycubeDomain()
     topology.SetInputData(image)
-    topology.Modified()
-    boundary, domain = vtkSegmentBoundary(), vtkPolycubeDomain()
     boundary.UseDensityOff()
     boundary.SetInputConnection(topology.GetOutputPort())
     domain.SetInputConnection(boundary.GetOutputPort())

@@ -43,12 +43,6 @@ public:
     return line == this->First[0] || line == this->First[1] || line == this->First[2];
   }
   int AxisOf(Index line) const { return line < this->First[1] ? 0 : line < this->First[2] ? 1 : 2; }
-  /// The lattice's coordinate that a line has.
-  int CoordinateOf(Index line) const
-  {
-    const int axis = this->AxisOf(line);
-    return this->Low[axis] + static_cast<int>(line - this->First[axis]);
-  }
 
   /// The axes of the lattice along x and y of a face's chart.
   std::array<int, 2> Axes(Index face) const;

@@ -255,6 +255,9 @@ TEST(HexRemesh, SaysWhatIsWrong)
     mesh.Filter->SetMostCells(10);
     mesh.Filter->Update();
     EXPECT_NE(errors.TakeOnly().find("choose a larger EdgeLength"), std::string::npos);
+    mesh.Filter->SetCellsPerBlock(6);
+    mesh.Filter->Update();
+    EXPECT_NE(errors.TakeOnly().find("choose fewer CellsPerBlock"), std::string::npos);
   }
   {
     Remeshed mesh(surface);
