@@ -200,22 +200,8 @@ private:
       this->FollowData(stage, samples, target, shape, *rule);
     }
     this->Result.SegmentRms = RmsOfSegments(this->Blocks, samples, system, stage.Scales);
-    this->MeasureJump(stage);
-  }
-
-  void MeasureJump(const Stage& stage)
-  {
-    std::vector<double> units;
-    for (const double scale : stage.Scales)
-    {
-      units.push_back(this->Options.Spacing / scale);
-    }
-    for (const GradientJump& jump : MeasureGradientJumps(
-           this->Blocks, this->Result.Spline, stage.System.Mesh(), units, this->Run))
-    {
-      this->Result.Jump.Rms = std::max(this->Result.Jump.Rms, jump.Rms);
-      this->Result.Jump.Maximum = std::max(this->Result.Jump.Maximum, jump.Maximum);
-    }
+    this->Result.Jump = WorstGradientJump(this->Blocks, this->Result.Spline, system.Mesh(),
+      stage.Scales, this->Options.Spacing, this->Run);
     this->Lap("jump");
   }
 
@@ -408,8 +394,8 @@ private:
       stage.System.AddGains(static_cast<int>(c), 1.0 / (scale * scale), gains);
     }
     this->Lap("indicator");
-    const bool isRefined =
-      this->Marks.Refine(std::move(gains), this->MostPoints(stage), this->Result.Spline, this->Rule);
+    const bool isRefined = this->Marks.Refine(
+      std::move(gains), this->MostPoints(stage), this->Result.Spline, this->Rule);
     this->Lap("refine");
     return isRefined;
   }

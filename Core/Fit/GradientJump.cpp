@@ -105,4 +105,23 @@ std::vector<GradientJump> MeasureGradientJumps(const BlockComplex& blocks, const
   }
   return jumps;
 }
+
+//------------------------------------------------------------------------------
+GradientJump WorstGradientJump(const BlockComplex& blocks, const TSpline& spline,
+  const BezierMesh& mesh, const std::vector<double>& ranges, double spacing,
+  const Execution& execution)
+{
+  std::vector<double> units;
+  for (const double range : ranges)
+  {
+    units.push_back(spacing / range);
+  }
+  GradientJump worst;
+  for (const GradientJump& jump : MeasureGradientJumps(blocks, spline, mesh, units, execution))
+  {
+    worst.Rms = std::max(worst.Rms, jump.Rms);
+    worst.Maximum = std::max(worst.Maximum, jump.Maximum);
+  }
+  return worst;
+}
 }

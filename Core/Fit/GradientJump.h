@@ -29,6 +29,11 @@ struct GradientJump
  */
 std::vector<GradientJump> MeasureGradientJumps(const BlockComplex& blocks, const TSpline& spline,
   const BezierMesh& mesh, const std::vector<double>& units, const Execution& execution = {});
+
+/// The largest of all components, in parts of each one's range a `spacing`.
+GradientJump WorstGradientJump(const BlockComplex& blocks, const TSpline& spline,
+  const BezierMesh& mesh, const std::vector<double>& ranges, double spacing,
+  const Execution& execution = {});
 }
 
 #endif

@@ -8,6 +8,8 @@
 #include "Fit/BlockSpline.h"
 #include "RandomRefinement.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 
 namespace trivariate
@@ -86,6 +88,25 @@ inline double LargestGap(const BlockComplex& blocks, const TSpline& spline, std:
     }
   }
   return gap;
+}
+
+/// Promise 7: the spline is what it was before it was refined, and its functions sum to one.
+inline void ExpectSameSpline(
+  const BlockComplex& blocks, const TSpline& coarse, const TSpline& spline, std::mt19937& random)
+{
+  for (Index b = 0; b < blocks.Size(); ++b)
+  {
+    for (int trial = 0; trial < 10; ++trial)
+    {
+      const Point x = RandomPointIn(blocks, b, random);
+      const auto before = HomogeneousValue(coarse, x), now = HomogeneousValue(spline, x);
+      EXPECT_NEAR(now.back(), 1.0, 1e-13);
+      for (std::size_t c = 0; c < now.size(); ++c)
+      {
+        EXPECT_NEAR(now[c], before[c], 1e-12);
+      }
+    }
+  }
 }
 }
 

@@ -46,19 +46,7 @@ TEST(AnalysisSuitableBlocks, StayWholeUnderRefinement)
       EXPECT_GT(spline.Size(), coarse.Size() + 20);
       EXPECT_EQ(CheckDualCompatibility(spline), "");
       EXPECT_EQ(spline.Weights, std::vector<double>(spline.Functions.size(), 1.0));
-      for (Index b = 0; b < blocks.Size(); ++b)
-      {
-        for (int trial = 0; trial < 10; ++trial)
-        {
-          const Point x = RandomPointIn(blocks, b, random);
-          const auto before = HomogeneousValue(coarse, x), now = HomogeneousValue(spline, x);
-          EXPECT_NEAR(now.back(), 1.0, 1e-13);
-          for (std::size_t c = 0; c < now.size(); ++c)
-          {
-            EXPECT_NEAR(now[c], before[c], 1e-12);
-          }
-        }
-      }
+      ExpectSameSpline(blocks, coarse, spline, random);
       EXPECT_LT(LargestGap(blocks, spline, random), 1e-12);
       Scatter(layout, spline, random);
       EXPECT_LT(LargestGap(blocks, spline, random), 1e-13);
