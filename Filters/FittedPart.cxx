@@ -120,7 +120,7 @@ void AddRounds(const FittedPart& fitted, int segment, vtkTable* all)
   const vtkIdType rows = own->GetNumberOfRows();
   const double rms = OwnRms(own, segment);
   vtkDataArray* jumps = own->GetFieldData()->GetArray("GradientJump");
-  const double jump = jumps ? jumps->GetTuple1(0) : 0.0; // a box has no faces inside
+  const double jump = jumps ? jumps->GetComponent(0, 0) : 0.0; // a box has no faces inside
   AddColumn<vtkIntArray>(all, "Segment", rows, [=](vtkIdType) { return segment; });
   AddColumn<vtkIntArray>(all, "Together", rows, [&](vtkIdType) { return fitted.Together; });
   AddColumn<vtkIdTypeArray>(all, "ControlPoints", rows,
