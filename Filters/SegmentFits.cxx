@@ -367,7 +367,9 @@ std::vector<std::string> SegmentFitter::Fit(double from, double to)
   {
     reserved += this->Fewest(static_cast<std::int32_t>(p));
   }
-  if (!this->Options.Compared && this->Options.Domains.front().BlocksOf.count(this->Parts[0].Label))
+  if (const auto& domains = this->Options.Domains;
+      !this->Options.Compared && !domains.empty() &&
+      domains.front().BlocksOf.count(this->Parts[0].Label) > 0)
   {
     this->Warnings.push_back("Segment " + std::to_string(this->Parts[0].Label) +
                              " is fitted over its bounding box: the lowest label takes the voxels "
@@ -378,16 +380,15 @@ std::vector<std::string> SegmentFitter::Fit(double from, double to)
   for (const Unit& unit : units)
   {
     // As many as their shares, but those after them must have some.
+    std::vector<int> controlPoints;
+    double mine = 0.0;
     for (const std::int32_t number : unit)
     {
       reserved -= this->Fewest(number);
-    }
-    const double most = left - reserved;
-    std::vector<int> controlPoints;
-    for (const std::int32_t number : unit)
-    {
+      const double most = left - mine - reserved;
       const double wanted = open > 0.0 ? std::min(most, left * shares[number] / open) : most;
       controlPoints.push_back(std::max(this->Fewest(number), static_cast<int>(wanted)));
+      mine += controlPoints.back();
     }
     const double share = shareOf(unit);
     this->FitUnit(unit, controlPoints, at, at + width * share);
