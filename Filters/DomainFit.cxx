@@ -30,6 +30,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <stdexcept>
 
@@ -37,6 +38,9 @@ namespace trivariate
 {
 namespace
 {
+constexpr double ShareOfErrors = 0.1; // of the progress: the errors of the round trip
+constexpr double MostMissed = 0.02;   // of a segment's voxels
+
 // Takes parameters from the space of all blocks to that of some of them, `cells` among all.
 void MoveParameters(vtkImageData* image, const BlockComplex& all, const BlockComplex& own,
   const std::vector<vtkIdType>& cells)
@@ -63,6 +67,87 @@ void MoveParameters(vtkImageData* image, const BlockComplex& all, const BlockCom
     }
     parameter->SetTuple(voxel, p.data());
   }
+}
+
+//------------------------------------------------------------------------------
+// Segments over their blocks alone. `image` has the arrays to fit, Parameter and ParameterMask of
+// the domains; its Parameter is changed to that of the blocks alone.
+FittedPart FitOverBlocks(const FilledDomains& domains, vtkImageData* image,
+  const std::set<int>& segments, const SegmentFitOptions& options, Chain& chain, double from,
+  double to)
+{
+  for (const int segment : segments)
+  {
+    if (domains.Folded.count(segment) > 0)
+    {
+      throw std::runtime_error("Its block mesh has folds.");
+    }
+  }
+  vtkDataArray* owners = domains.Polycubes->GetCellData()->GetArray("Segment");
+  std::vector<vtkIdType> cells;
+  vtkNew<vtkPartitionedDataSetCollection> blocks;
+  for (vtkIdType cell = 0; cell < domains.Polycubes->GetNumberOfCells(); ++cell)
+  {
+    if (segments.count(static_cast<int>(owners->GetTuple1(cell))) > 0)
+    {
+      blocks->SetPartition(static_cast<unsigned int>(cells.size()), 0,
+        domains.Blocks->GetPartition(static_cast<unsigned int>(cell), 0));
+      cells.push_back(cell);
+    }
+  }
+  const vtkNew<vtkUnstructuredGrid> cubes = CubesOf(domains.Polycubes, cells);
+  MoveParameters(image, ReadBlocks(domains.Polycubes), ReadBlocks(cubes), cells);
+
+  vtkNew<vtkTSplineFit> fit;
+  fit->SetInputData(0, image);
+  fit->SetInputData(1, cubes);
+  fit->SetInputData(2, blocks);
+  FittedPart part = RunFit(fit, CutMaskName, "FitOverCubes", options, chain, from, to);
+  const bool layered = cubes->GetCellData()->GetArray("Patch")->GetRange()[1] >= 0.0;
+  part.Domain = layered ? "LayeredCubes" : "Cubes";
+  return part;
+}
+
+//------------------------------------------------------------------------------
+// How a spline stands for some voxels by its inverse map.
+struct PartErrors
+{
+  double Squares = 0.0;          // sum of squared errors of the first array, where it was found
+  std::vector<vtkIdType> Missed; // voxels that were not found
+};
+
+// The errors of a spline of one segment at voxels of an image.
+PartErrors MeasurePart(const SegmentedImage& image, const TSplineModel& model,
+  const std::vector<vtkIdType>& voxels, Chain& chain, double from, double to)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(static_cast<vtkIdType>(voxels.size()));
+  for (std::size_t i = 0; i < voxels.size(); ++i)
+  {
+    points->SetPoint(static_cast<vtkIdType>(i), image.Image->GetPoint(voxels[i]));
+  }
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(points);
+  const Execution execution = SMPExecution(chain.Filter, from, to);
+  const BezierMesh mesh(model.Spline, execution.Part(0.0, 0.1));
+  FillPoints({ model, mesh, false, false, ReachIn(image.Image) }, cloud, execution.Part(0.1, 1.0));
+  vtkDataArray* wanted = image.Values();
+  vtkDataArray* values = cloud->GetPointData()->GetArray(image.Arrays.front().c_str());
+  vtkDataArray* found = cloud->GetPointData()->GetArray("vtkValidPointMask");
+  PartErrors errors;
+  for (std::size_t i = 0; i < voxels.size(); ++i)
+  {
+    if (found->GetTuple1(static_cast<vtkIdType>(i)) == 0.0)
+    {
+      errors.Missed.push_back(voxels[i]);
+      continue;
+    }
+    const double error =
+      values->GetComponent(static_cast<vtkIdType>(i), 0) - wanted->GetComponent(voxels[i], 0);
+    errors.Squares += error * error;
+  }
+  return errors;
 }
 }
 
@@ -107,73 +192,57 @@ std::vector<std::set<int>> TouchingSegments(const FilledDomains& domains, int lo
 }
 
 //------------------------------------------------------------------------------
-FittedPart FitOverDomain(const FilledDomains& domains, vtkImageData* image, const char* mask,
-  const std::set<int>& segments, const SegmentFitOptions& options, Chain& chain, double from,
+DomainFit FitOverDomain(const SegmentedImage& image, const PartNumbers& numbers,
+  const FilledDomains& domains, const SegmentFitOptions& options, Chain& chain, double from,
   double to)
 {
-  for (const int segment : segments)
+  DomainFit fit;
+  const Part whole = UniteParts(image.Parts, numbers);
+  const Cut cut = CutOut(image, numbers);
+  for (const char* name : { ParameterArrayName, ParameterMaskName })
   {
-    if (domains.Folded.count(segment) > 0)
+    AddCropped(domains.Fields, domains.Fields->GetPointData()->GetArray(name), cut.Image);
+  }
+  std::set<int> labels;
+  for (const std::int32_t number : numbers)
+  {
+    labels.insert(image.Parts[number].Label);
+  }
+  double at = to - ShareOfErrors * (to - from);
+  FittedPart together;
+  try
+  {
+    together = FitOverBlocks(domains, cut.Image, labels, options, chain, from, at);
+  }
+  catch (const std::runtime_error& reason)
+  {
+    fit.Why = reason.what();
+    return fit;
+  }
+  together.Together = whole.Label;
+  together.Range = whole.High - whole.Low;
+  const auto all = static_cast<double>(cut.Voxels.size());
+  double squares = 0.0;
+  for (const std::int32_t number : numbers)
+  {
+    FittedPart& part = fit.Fitted.emplace_back(together);
+    part.Model = SegmentPart(together.Model, image.Parts[number].Label);
+    std::vector<vtkIdType> voxels;
+    std::copy_if(cut.Voxels.begin(), cut.Voxels.end(), std::back_inserter(voxels),
+      [&](vtkIdType voxel) { return image.PartOf[voxel] == number; });
+    const double next = at + (to - at) * static_cast<double>(voxels.size()) / all;
+    const PartErrors errors = MeasurePart(image, part.Model, voxels, chain, at, next);
+    at = next;
+    part.Squares = errors.Squares;
+    squares += errors.Squares;
+    fit.Missed.insert(fit.Missed.end(), errors.Missed.begin(), errors.Missed.end());
+    if (double(errors.Missed.size()) > MostMissed * double(voxels.size()))
     {
-      throw std::runtime_error("Its block mesh has folds.");
+      fit.Why = "the spline over cubes misses " + std::to_string(errors.Missed.size()) + " of " +
+                std::to_string(voxels.size()) + " voxels.";
     }
   }
-  vtkDataArray* owners = domains.Polycubes->GetCellData()->GetArray("Segment");
-  std::vector<vtkIdType> cells;
-  vtkNew<vtkPartitionedDataSetCollection> blocks;
-  for (vtkIdType cell = 0; cell < domains.Polycubes->GetNumberOfCells(); ++cell)
-  {
-    if (segments.count(static_cast<int>(owners->GetTuple1(cell))) > 0)
-    {
-      blocks->SetPartition(static_cast<unsigned int>(cells.size()), 0,
-        domains.Blocks->GetPartition(static_cast<unsigned int>(cell), 0));
-      cells.push_back(cell);
-    }
-  }
-  const vtkNew<vtkUnstructuredGrid> cubes = CubesOf(domains.Polycubes, cells);
-  MoveParameters(image, ReadBlocks(domains.Polycubes), ReadBlocks(cubes), cells);
-
-  vtkNew<vtkTSplineFit> fit;
-  fit->SetInputData(0, image);
-  fit->SetInputData(1, cubes);
-  fit->SetInputData(2, blocks);
-  FittedPart part = RunFit(fit, mask, "FitOverCubes", options, chain, from, to);
-  const bool layered = cubes->GetCellData()->GetArray("Patch")->GetRange()[1] >= 0.0;
-  part.Domain = layered ? "LayeredCubes" : "Cubes";
-  return part;
-}
-
-//------------------------------------------------------------------------------
-PartErrors MeasurePart(vtkImageData* image, const std::string& array, const TSplineModel& model,
-  const std::vector<vtkIdType>& voxels, Chain& chain, double from, double to)
-{
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(voxels.size()));
-  for (std::size_t i = 0; i < voxels.size(); ++i)
-  {
-    points->SetPoint(static_cast<vtkIdType>(i), image->GetPoint(voxels[i]));
-  }
-  vtkNew<vtkPolyData> cloud;
-  cloud->SetPoints(points);
-  const Execution execution = SMPExecution(chain.Filter, from, to);
-  const BezierMesh mesh(model.Spline, execution.Part(0.0, 0.1));
-  FillPoints({ model, mesh, false, false, ReachIn(image) }, cloud, execution.Part(0.1, 1.0));
-  vtkDataArray* wanted = image->GetPointData()->GetArray(array.c_str());
-  vtkDataArray* values = cloud->GetPointData()->GetArray(array.c_str());
-  vtkDataArray* found = cloud->GetPointData()->GetArray("vtkValidPointMask");
-  PartErrors errors;
-  for (std::size_t i = 0; i < voxels.size(); ++i)
-  {
-    if (found->GetTuple1(static_cast<vtkIdType>(i)) == 0.0)
-    {
-      errors.Missed.push_back(voxels[i]);
-      continue;
-    }
-    const double error =
-      values->GetComponent(static_cast<vtkIdType>(i), 0) - wanted->GetComponent(voxels[i], 0);
-    errors.Squares += error * error;
-  }
-  return errors;
+  fit.Error = squares / (all - static_cast<double>(fit.Missed.size()));
+  return fit;
 }
 }

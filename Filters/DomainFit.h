@@ -18,25 +18,23 @@ namespace trivariate
 /// common.
 std::vector<std::set<int>> TouchingSegments(const FilledDomains& domains, int lowest);
 
-/**
- * Segments over their blocks alone. `image` has the arrays to fit, Parameter and ParameterMask of
- * the domains, and a mask of the voxels that count; its Parameter is changed to that of the blocks
- * alone. Throws as ChainStep does, and std::runtime_error where a segment is folded.
- */
-FittedPart FitOverDomain(const FilledDomains& domains, vtkImageData* image, const char* mask,
-  const std::set<int>& segments, const SegmentFitOptions& options, Chain& chain, double from,
-  double to);
-
-/// How a spline stands for some voxels by its inverse map.
-struct PartErrors
+/// What segments are over their cubes.
+struct DomainFit
 {
-  double Squares = 0.0;          ///< sum of squared errors of the first array, where it was found
-  std::vector<vtkIdType> Missed; ///< voxels that were not found
+  std::vector<FittedPart> Fitted; ///< each of them
+  std::vector<vtkIdType> Missed;  ///< voxels that the spline does not pass through
+  double Error = 0.0;             ///< squared, of a voxel that is not missed
+  std::string Why;                ///< there is none; empty: there is one
 };
 
-/// The errors of a spline of one segment at voxels of an image.
-PartErrors MeasurePart(vtkImageData* image, const std::string& array, const TSplineModel& model,
-  const std::vector<vtkIdType>& voxels, Chain& chain, double from, double to);
+/**
+ * Fits one segment, or several together, over their own blocks alone, and looks by the inverse map
+ * how the spline stands for their voxels. Where one is folded, the fit fails, or a segment misses 2
+ * % of its voxels, there is none. Throws as ChainStep does when the chain is stopped.
+ */
+DomainFit FitOverDomain(const SegmentedImage& image, const PartNumbers& numbers,
+  const FilledDomains& domains, const SegmentFitOptions& options, Chain& chain, double from,
+  double to);
 }
 
 #endif

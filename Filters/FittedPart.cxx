@@ -15,6 +15,8 @@
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <cmath>
+
 namespace trivariate
 {
 //------------------------------------------------------------------------------
@@ -111,6 +113,27 @@ double LastRms(vtkTable* rounds)
 vtkIdType LastControlPoints(vtkTable* rounds)
 {
   return LastOf(rounds, "ControlPoints").ToTypeInt64();
+}
+
+//------------------------------------------------------------------------------
+double RmsWith(vtkTable* rounds, double controlPoints)
+{
+  double from = 0.0, above = 0.0; // the round before: its control points, its error
+  for (vtkIdType row = 0; row < rounds->GetNumberOfRows(); ++row)
+  {
+    const double to = rounds->GetValueByName(row, "ControlPoints").ToDouble();
+    const double below = rounds->GetValueByName(row, "RMS").ToDouble();
+    if (to >= controlPoints)
+    {
+      const bool isBetween = from > 0.0 && from < controlPoints && above > 0.0 && below > 0.0;
+      return isBetween ? above * std::pow(below / above,
+                                   std::log(controlPoints / from) / std::log(to / from))
+                       : below;
+    }
+    from = to;
+    above = below;
+  }
+  return above;
 }
 
 //------------------------------------------------------------------------------

@@ -45,6 +45,10 @@ double LastRms(vtkTable* rounds);
 /// The distinct control points that it ended with.
 vtkIdType LastControlPoints(vtkTable* rounds);
 
+/// The error, in percent of that range, that it had with so many control points: between two rounds
+/// a power of their number, before the first and after the last one theirs.
+double RmsWith(vtkTable* rounds, double controlPoints);
+
 /// Adds the rounds of a fit to those of all, under a label.
 void AddRounds(const FittedPart& fitted, int segment, vtkTable* all);
 }

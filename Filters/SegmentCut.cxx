@@ -11,14 +11,17 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace trivariate
 {
 //------------------------------------------------------------------------------
-std::vector<Part> FindParts(
-  vtkImageData* image, vtkDataArray* values, std::vector<std::int32_t>& partOf)
+SegmentedImage::SegmentedImage(vtkImageData* image, std::vector<std::string> arrays)
+  : Image(image)
+  , Arrays(std::move(arrays))
 {
   vtkDataArray* labels = image->GetPointData()->GetArray("Segment");
+  vtkDataArray* values = this->Values();
   std::map<std::int32_t, Part> parts;
   const int* e = image->GetExtent();
   vtkIdType voxel = 0;
@@ -43,7 +46,6 @@ std::vector<Part> FindParts(
       }
     }
   }
-  std::vector<Part> list;
   std::map<std::int32_t, std::int32_t> number;
   for (auto& [label, part] : parts)
   {
@@ -55,34 +57,39 @@ std::vector<Part> FindParts(
         part.Box[2 * a + 1] = part.Box[2 * a] + 1;
       }
     }
-    number[label] = static_cast<std::int32_t>(list.size());
-    list.push_back(part);
+    number[label] = static_cast<std::int32_t>(this->Parts.size());
+    this->Parts.push_back(part);
   }
-  partOf.resize(image->GetNumberOfPoints());
+  this->PartOf.resize(image->GetNumberOfPoints());
   for (voxel = 0; voxel < image->GetNumberOfPoints(); ++voxel)
   {
-    partOf[voxel] = number[static_cast<std::int32_t>(labels->GetTuple1(voxel))];
+    this->PartOf[voxel] = number[static_cast<std::int32_t>(labels->GetTuple1(voxel))];
   }
-  return list;
 }
 
 //------------------------------------------------------------------------------
-std::vector<double> FindShares(vtkImageData* image, vtkDataArray* values,
-  const std::vector<std::int32_t>& partOf, std::size_t parts, const Execution& execution)
+vtkDataArray* SegmentedImage::Values() const
 {
-  std::vector<double> copy(image->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  return this->Image->GetPointData()->GetArray(this->Arrays.front().c_str());
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> FindShares(const SegmentedImage& image, const Execution& execution)
+{
+  vtkDataArray* values = image.Values();
+  std::vector<double> copy(values->GetNumberOfTuples());
+  for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
   {
     copy[i] = values->GetComponent(i, 0);
   }
   int size[3];
-  image->GetDimensions(size);
-  return PointShares(
-    { size[0], size[1], size[2] }, copy.data(), partOf, static_cast<int>(parts), execution);
+  image.Image->GetDimensions(size);
+  return PointShares({ size[0], size[1], size[2] }, copy.data(), image.PartOf,
+    static_cast<int>(image.Parts.size()), execution);
 }
 
 //------------------------------------------------------------------------------
-Part UniteParts(const std::vector<Part>& parts, const std::vector<std::int32_t>& numbers)
+Part UniteParts(const std::vector<Part>& parts, const PartNumbers& numbers)
 {
   Part all = parts[numbers.front()];
   for (const std::int32_t number : numbers)
@@ -121,17 +128,16 @@ void AddCropped(vtkImageData* image, vtkDataArray* whole, vtkImageData* box)
 }
 
 //------------------------------------------------------------------------------
-Cut CutOut(vtkImageData* image, const std::vector<Part>& parts,
-  const std::vector<std::int32_t>& numbers, const std::vector<std::int32_t>& partOf,
-  const std::vector<std::string>& arrays)
+Cut CutOut(const SegmentedImage& segmented, const PartNumbers& numbers)
 {
-  const Part part = UniteParts(parts, numbers);
+  vtkImageData* image = segmented.Image;
+  const Part part = UniteParts(segmented.Parts, numbers);
   Cut cut{ vtkSmartPointer<vtkImageData>::New(), {} };
   cut.Image->SetOrigin(image->GetOrigin());
   cut.Image->SetSpacing(image->GetSpacing());
   cut.Image->SetDirectionMatrix(image->GetDirectionMatrix());
   cut.Image->SetExtent(const_cast<int*>(part.Box.data()));
-  for (const std::string& name : arrays)
+  for (const std::string& name : segmented.Arrays)
   {
     AddCropped(image, image->GetPointData()->GetArray(name.c_str()), cut.Image);
   }
@@ -147,7 +153,7 @@ Cut CutOut(vtkImageData* image, const std::vector<Part>& parts,
       for (int i = part.Box[0]; i <= part.Box[1]; ++i, ++voxel)
       {
         const bool isOwn =
-          std::find(numbers.begin(), numbers.end(), partOf[voxel]) != numbers.end();
+          std::find(numbers.begin(), numbers.end(), segmented.PartOf[voxel]) != numbers.end();
         mask->InsertNextValue(isOwn);
         if (isOwn)
         {

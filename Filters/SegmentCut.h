@@ -28,16 +28,28 @@ struct Part
   double Low, High;
 };
 
-/// Parts by ascending label in the point array Segment, and the number of its part for each voxel.
-std::vector<Part> FindParts(
-  vtkImageData* image, vtkDataArray* values, std::vector<std::int32_t>& partOf);
+/// Segments by their numbers, in ascending order of their labels.
+using PartNumbers = std::vector<std::int32_t>;
+
+/// An image by the labels in its point array Segment.
+struct SegmentedImage
+{
+  /// The first of `arrays` is the one whose range counts.
+  SegmentedImage(vtkImageData* image, std::vector<std::string> arrays);
+
+  vtkDataArray* Values() const; ///< the first array
+
+  vtkImageData* Image;
+  std::vector<std::string> Arrays; ///< names of point arrays
+  std::vector<Part> Parts;         ///< by ascending label
+  PartNumbers PartOf;              ///< of each voxel
+};
 
 /// The share of the control points that each part should have, by PointShares.
-std::vector<double> FindShares(vtkImageData* image, vtkDataArray* values,
-  const std::vector<std::int32_t>& partOf, std::size_t parts, const Execution& execution);
+std::vector<double> FindShares(const SegmentedImage& image, const Execution& execution);
 
 /// Some parts as one.
-Part UniteParts(const std::vector<Part>& parts, const std::vector<std::int32_t>& numbers);
+Part UniteParts(const std::vector<Part>& parts, const PartNumbers& numbers);
 
 /// Adds what an array has in a box of the image to the image that is the box.
 void AddCropped(vtkImageData* image, vtkDataArray* whole, vtkImageData* box);
@@ -52,10 +64,8 @@ struct Cut
   std::vector<vtkIdType> Voxels;       ///< of the whole image
 };
 
-/// Some parts with `arrays`.
-Cut CutOut(vtkImageData* image, const std::vector<Part>& parts,
-  const std::vector<std::int32_t>& numbers, const std::vector<std::int32_t>& partOf,
-  const std::vector<std::string>& arrays);
+/// Some parts.
+Cut CutOut(const SegmentedImage& image, const PartNumbers& numbers);
 }
 
 #endif

@@ -4,26 +4,20 @@
 
 #include "ChainStep.h"
 #include "DomainFit.h"
-#include "DomainSamples.h"
 #include "SMPExecution.h"
 #include "SegmentCut.h"
-#include "TSplineGrid.h"
-#include "vtkTSplineFit.h"
 
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkTable.h"
-#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <numeric>
 #include <set>
-#include <stdexcept>
+#include <utility>
 
 namespace trivariate
 {
@@ -33,12 +27,16 @@ constexpr int FewestControlPoints = 64;
 constexpr double ShareOfShares = 0.02; // of the progress: to look what each segment needs
 constexpr double ShareOfBoxes = 0.2;   // of a unit's progress: the fits over boxes
 constexpr double ShareOfUnion = 0.5;   // of what is left then: several segments in one fit
-constexpr double ShareOfErrors = 0.1;  // of a fit over cubes: its errors
-constexpr double MostMissed = 0.02;    // of a unit's voxels by a spline over a domain
+constexpr double ShareOfTrial = 0.2;   // of the fits over a domain: one with few control points
 
-// Segments that are to be fitted at once, by the numbers of their parts: one, or several with
-// common faces.
-using Unit = std::vector<std::int32_t>;
+// Of the control points that a segment may have, those of a trial over its cubes; and the largest
+// part of them that it may need. Where cubes pay they pay most with few control points
+// (Documentation/Results.md, Fits over a domain), and a fit over them takes far longer than one
+// over a box.
+constexpr double TrialPart = 0.125, MostOfTrial = 0.5;
+
+// Segments that are to be fitted at once: one, or several with common faces.
+using Unit = PartNumbers;
 
 struct Limits
 {
@@ -51,16 +49,13 @@ class SegmentFitter
 {
 public:
   SegmentFitter(vtkImageData* image, const SegmentFitOptions& options, Chain& chain)
-    : Image(image)
+    : Segmented(image, AllArrays(options))
     , Options(options)
     , Outer(chain)
-    , Values(image->GetPointData()->GetArray(options.Array.c_str()))
-    , Parts(FindParts(image, this->Values, this->PartOf))
-    , Fitted(this->Parts.size())
+    , Fitted(this->Segmented.Parts.size())
+    , BoxRounds(this->Segmented.Parts.size())
   {
-    this->Arrays.push_back(options.Array);
-    this->Arrays.insert(this->Arrays.end(), options.Further.begin(), options.Further.end());
-    const double* range = this->Values->GetRange(0);
+    const double* range = this->Segmented.Values()->GetRange(0);
     this->Range = range[1] - range[0];
   }
 
@@ -69,34 +64,33 @@ public:
   SegmentFits Join(vtkTable* rounds) const;
 
 private:
-  struct CubesFit
+  static std::vector<std::string> AllArrays(const SegmentFitOptions& options)
   {
-    std::vector<FittedPart> Fitted; // of each part of the unit
-    std::vector<vtkIdType> Missed;  // voxels that the spline does not pass through
-    double Error = 0.0;             // squared, of a voxel that is not missed
-    std::string Why;                // there is none; empty: there is one
-  };
+    std::vector<std::string> arrays{ options.Array };
+    arrays.insert(arrays.end(), options.Further.begin(), options.Further.end());
+    return arrays;
+  }
 
   std::vector<Unit> FindUnits() const;
   int Fewest(std::int32_t number) const;
   std::vector<const FilledDomains*> DomainsOf(std::int32_t number) const;
   SegmentFitOptions OptionsFor(const Part& part, int controlPoints) const;
-  FittedPart FitBox(std::int32_t number, const Limits& limits) const;
-  CubesFit FitCubes(const Unit& unit, const FilledDomains& domains, const Limits& limits) const;
+  void FitBox(std::int32_t number, const Limits& limits);
+  DomainFit FitCubes(const Unit& unit, const FilledDomains& domains, const Limits& limits) const;
+  double BoxError(const Unit& unit, double part) const;
+  std::string TryCubes(
+    const Unit& unit, const FilledDomains& domains, double from, double to) const;
   std::string ImproveOverCubes(
     const Unit& unit, const std::vector<const FilledDomains*>& candidates, const Limits& limits);
   vtkIdType CountPoints(const Unit& unit) const;
   void FitUnit(const Unit& unit, const std::vector<int>& controlPoints, double from, double to);
 
-  vtkImageData* Image;
+  SegmentedImage Segmented;
   const SegmentFitOptions& Options;
   Chain& Outer;
-  vtkDataArray* Values;
-  std::vector<std::int32_t> PartOf; // of each voxel
-  std::vector<Part> Parts;
-  std::vector<FittedPart> Fitted;  // of each part
-  std::vector<std::string> Arrays; // to fit
-  double Range;                    // of the first one over the whole image
+  std::vector<FittedPart> Fitted;                   // of each part
+  std::vector<vtkSmartPointer<vtkTable>> BoxRounds; // of each part that was fitted over its box
+  double Range;                                     // of the first array over the whole image
   std::vector<std::string> Warnings;
 };
 
@@ -107,7 +101,7 @@ std::vector<const FilledDomains*> SegmentFitter::DomainsOf(std::int32_t number) 
   std::vector<const FilledDomains*> found;
   for (const FilledDomains& domains : this->Options.Domains)
   {
-    if (number > 0 && domains.BlocksOf.count(this->Parts[number].Label) > 0)
+    if (number > 0 && domains.BlocksOf.count(this->Segmented.Parts[number].Label) > 0)
     {
       found.push_back(&domains);
     }
@@ -120,16 +114,16 @@ std::vector<const FilledDomains*> SegmentFitter::DomainsOf(std::int32_t number) 
 std::vector<Unit> SegmentFitter::FindUnits() const
 {
   std::vector<Unit> units;
-  std::vector<char> isTaken(this->Parts.size(), 0);
-  if (!this->Options.Domains.empty() && this->Parts.size() > 1)
+  std::vector<char> isTaken(this->Segmented.Parts.size(), 0);
+  if (!this->Options.Domains.empty() && this->Segmented.Parts.size() > 1)
   {
     for (const std::set<int>& team :
-      TouchingSegments(this->Options.Domains.front(), this->Parts[1].Label))
+      TouchingSegments(this->Options.Domains.front(), this->Segmented.Parts[1].Label))
     {
       Unit unit;
-      for (std::size_t p = 1; p < this->Parts.size(); ++p)
+      for (std::size_t p = 1; p < this->Segmented.Parts.size(); ++p)
       {
-        if (team.count(this->Parts[p].Label) > 0)
+        if (team.count(this->Segmented.Parts[p].Label) > 0)
         {
           unit.push_back(static_cast<std::int32_t>(p));
           isTaken[p] = 1;
@@ -138,7 +132,7 @@ std::vector<Unit> SegmentFitter::FindUnits() const
       units.push_back(unit);
     }
   }
-  for (std::size_t p = 0; p < this->Parts.size(); ++p)
+  for (std::size_t p = 0; p < this->Segmented.Parts.size(); ++p)
   {
     if (!isTaken[p])
     {
@@ -155,7 +149,7 @@ int SegmentFitter::Fewest(std::int32_t number) const
   int blocks = 1;
   for (const FilledDomains& domains : this->Options.Domains)
   {
-    const auto domain = domains.BlocksOf.find(this->Parts[number].Label);
+    const auto domain = domains.BlocksOf.find(this->Segmented.Parts[number].Label);
     const bool isWanted = !this->Options.Compared && domain != domains.BlocksOf.end();
     blocks = std::max(blocks, isWanted ? domain->second : 1);
   }
@@ -173,67 +167,65 @@ SegmentFitOptions SegmentFitter::OptionsFor(const Part& part, int controlPoints)
 }
 
 //------------------------------------------------------------------------------
-FittedPart SegmentFitter::FitBox(std::int32_t number, const Limits& limits) const
+void SegmentFitter::FitBox(std::int32_t number, const Limits& limits)
 {
-  const Part& part = this->Parts[number];
-  return FitOverBox(CutOut(this->Image, this->Parts, { number }, this->PartOf, this->Arrays), part,
+  const Part& part = this->Segmented.Parts[number];
+  this->Fitted[number] = FitOverBox(CutOut(this->Segmented, { number }), part,
     this->OptionsFor(part, limits.ControlPoints), this->Outer, limits.From, limits.To);
+  this->BoxRounds[number] = this->Fitted[number].Rounds;
 }
 
 //------------------------------------------------------------------------------
-SegmentFitter::CubesFit SegmentFitter::FitCubes(
+DomainFit SegmentFitter::FitCubes(
   const Unit& unit, const FilledDomains& domains, const Limits& limits) const
 {
-  CubesFit cubes;
-  const Part whole = UniteParts(this->Parts, unit);
-  const Cut cut = CutOut(this->Image, this->Parts, unit, this->PartOf, this->Arrays);
-  for (const char* name : { ParameterArrayName, ParameterMaskName })
-  {
-    AddCropped(domains.Fields, domains.Fields->GetPointData()->GetArray(name), cut.Image);
-  }
-  std::set<int> labels;
+  const Part whole = UniteParts(this->Segmented.Parts, unit);
+  return FitOverDomain(this->Segmented, unit, domains,
+    this->OptionsFor(whole, limits.ControlPoints), this->Outer, limits.From, limits.To);
+}
+
+//------------------------------------------------------------------------------
+// Squared, of a voxel of a unit over boxes with a part of the control points that they took.
+double SegmentFitter::BoxError(const Unit& unit, double part) const
+{
+  double squares = 0.0, voxels = 0.0;
   for (const std::int32_t number : unit)
   {
-    labels.insert(this->Parts[number].Label);
+    vtkTable* rounds = this->BoxRounds[number];
+    const Part& segment = this->Segmented.Parts[number];
+    const double points = part * static_cast<double>(LastControlPoints(rounds));
+    const double error = RmsWith(rounds, points) / 100.0 * (segment.High - segment.Low);
+    const auto& of = this->Segmented.PartOf;
+    const auto count = static_cast<double>(std::count(of.begin(), of.end(), number));
+    squares += error * error * count;
+    voxels += count;
   }
-  double at = limits.To - ShareOfErrors * (limits.To - limits.From);
-  FittedPart fitted;
-  try
-  {
-    fitted = FitOverDomain(domains, cut.Image, CutMaskName, labels,
-      this->OptionsFor(whole, limits.ControlPoints), this->Outer, limits.From, at);
-  }
-  catch (const std::runtime_error& reason)
-  {
-    cubes.Why = reason.what();
-    return cubes;
-  }
-  fitted.Together = whole.Label;
-  fitted.Range = whole.High - whole.Low;
-  const auto all = static_cast<double>(cut.Voxels.size());
-  double squares = 0.0;
+  return squares / voxels;
+}
+
+//------------------------------------------------------------------------------
+// Why a fit over cubes is not worth its time; empty: it may be.
+std::string SegmentFitter::TryCubes(
+  const Unit& unit, const FilledDomains& domains, double from, double to) const
+{
+  double all = 0.0, needed = 0.0;
   for (const std::int32_t number : unit)
   {
-    FittedPart& part = cubes.Fitted.emplace_back(fitted);
-    part.Model = SegmentPart(fitted.Model, this->Parts[number].Label);
-    std::vector<vtkIdType> voxels;
-    std::copy_if(cut.Voxels.begin(), cut.Voxels.end(), std::back_inserter(voxels),
-      [&](vtkIdType voxel) { return this->PartOf[voxel] == number; });
-    const double next = at + (limits.To - at) * static_cast<double>(voxels.size()) / all;
-    const PartErrors errors =
-      MeasurePart(this->Image, this->Options.Array, part.Model, voxels, this->Outer, at, next);
-    at = next;
-    part.Squares = errors.Squares;
-    squares += errors.Squares;
-    cubes.Missed.insert(cubes.Missed.end(), errors.Missed.begin(), errors.Missed.end());
-    if (double(errors.Missed.size()) > MostMissed * double(voxels.size()))
-    {
-      cubes.Why = "the spline over cubes misses " + std::to_string(errors.Missed.size()) + " of " +
-                  std::to_string(voxels.size()) + " voxels.";
-    }
+    all += static_cast<double>(LastControlPoints(this->BoxRounds[number]));
+    needed += FewestControlPoints * domains.BlocksOf.at(this->Segmented.Parts[number].Label);
   }
-  cubes.Error = squares / (all - static_cast<double>(cubes.Missed.size()));
-  return cubes;
+  const double few = std::max(TrialPart * all, needed);
+  if (few > MostOfTrial * all)
+  {
+    return "";
+  }
+  const DomainFit trial = this->FitCubes(unit, domains, { static_cast<int>(few), from, to });
+  if (trial.Why.empty() && trial.Error >= this->BoxError(unit, few / all))
+  {
+    return "boxes are more accurate with " + std::to_string(static_cast<int>(few)) +
+           " control points.";
+  }
+  return trial.Why;
 }
 
 //------------------------------------------------------------------------------
@@ -242,26 +234,28 @@ SegmentFitter::CubesFit SegmentFitter::FitCubes(
 std::string SegmentFitter::ImproveOverCubes(
   const Unit& unit, const std::vector<const FilledDomains*>& candidates, const Limits& limits)
 {
-  double least = std::numeric_limits<double>::infinity(); // squared error of a voxel
-  if (this->Fitted[unit.front()].Rounds)
-  {
-    double squares = 0.0, voxels = 0.0;
-    for (const std::int32_t number : unit)
-    {
-      squares += this->Fitted[number].Squares;
-      voxels += static_cast<double>(std::count(this->PartOf.begin(), this->PartOf.end(), number));
-    }
-    least = squares / voxels;
-  }
+  const bool isCompared = this->BoxRounds[unit.front()] != nullptr;
+  // Squared error of a voxel.
+  double least = isCompared ? this->BoxError(unit, 1.0) : std::numeric_limits<double>::infinity();
   const double each = (limits.To - limits.From) / static_cast<double>(candidates.size());
   std::vector<vtkIdType> missed;
   bool isOverCubes = false;
   std::string why;
   for (std::size_t i = 0; i < candidates.size(); ++i)
   {
-    const double begin = limits.From + each * static_cast<double>(i);
-    CubesFit cubes =
-      this->FitCubes(unit, *candidates[i], { limits.ControlPoints, begin, begin + each });
+    double begin = limits.From + each * static_cast<double>(i);
+    const double end = begin + each;
+    DomainFit cubes;
+    if (isCompared)
+    {
+      const double tried = begin + ShareOfTrial * each;
+      cubes.Why = this->TryCubes(unit, *candidates[i], begin, tried);
+      begin = tried;
+    }
+    if (cubes.Why.empty())
+    {
+      cubes = this->FitCubes(unit, *candidates[i], { limits.ControlPoints, begin, end });
+    }
     if (cubes.Why.empty() && cubes.Error >= least)
     {
       cubes.Why = "boxes are more accurate with as many control points.";
@@ -280,11 +274,12 @@ std::string SegmentFitter::ImproveOverCubes(
   }
   for (const vtkIdType voxel : missed)
   {
-    this->PartOf[voxel] = 0;
+    this->Segmented.PartOf[voxel] = 0;
   }
   if (isOverCubes && !why.empty() && this->Fitted[unit.front()].Domain == "Cubes")
   {
-    this->Warnings.push_back("Segment " + std::to_string(this->Parts[unit.front()].Label) +
+    this->Warnings.push_back("Segment " +
+                             std::to_string(this->Segmented.Parts[unit.front()].Label) +
                              " is fitted over cubes without layers: with layers, " + why);
   }
   return isOverCubes ? "" : why;
@@ -301,7 +296,7 @@ void SegmentFitter::FitUnit(
   for (std::size_t n = 0; n < unit.size() && (domains.empty() || this->Options.Compared); ++n)
   {
     const double begin = from + perBox * static_cast<double>(n);
-    this->Fitted[unit[n]] = this->FitBox(unit[n], { controlPoints[n], begin, begin + perBox });
+    this->FitBox(unit[n], { controlPoints[n], begin, begin + perBox });
   }
   double at = boxed;
   if (unit.size() > 1)
@@ -319,7 +314,7 @@ void SegmentFitter::FitUnit(
       labels += (labels.empty()           ? ""
                   : number == unit.back() ? " and "
                                           : ", ") +
-                std::to_string(this->Parts[number].Label);
+                std::to_string(this->Segmented.Parts[number].Label);
     }
     this->Warnings.push_back(
       "Segments " + labels + " are not fitted together over common faces: " + why);
@@ -333,13 +328,12 @@ void SegmentFitter::FitUnit(
       this->ImproveOverCubes({ unit[n] }, own, { controlPoints[n], begin, begin + perPart });
     if (!why.empty())
     {
-      this->Warnings.push_back("Segment " + std::to_string(this->Parts[unit[n]].Label) +
+      this->Warnings.push_back("Segment " + std::to_string(this->Segmented.Parts[unit[n]].Label) +
                                " is fitted over its bounding box: " + why);
     }
     if (!this->Fitted[unit[n]].Rounds)
     {
-      this->Fitted[unit[n]] =
-        this->FitBox(unit[n], { controlPoints[n], begin + perPart, begin + perPart });
+      this->FitBox(unit[n], { controlPoints[n], begin + perPart, begin + perPart });
     }
   }
 }
@@ -347,8 +341,8 @@ void SegmentFitter::FitUnit(
 //------------------------------------------------------------------------------
 std::vector<std::string> SegmentFitter::Fit(double from, double to)
 {
-  const std::vector<double> shares = FindShares(this->Image, this->Values, this->PartOf,
-    this->Parts.size(), SMPExecution(this->Outer.Filter, from, from + ShareOfShares));
+  const std::vector<double> shares =
+    FindShares(this->Segmented, SMPExecution(this->Outer.Filter, from, from + ShareOfShares));
   std::vector<Unit> units = this->FindUnits();
   const auto shareOf = [&shares](const Unit& unit)
   {
@@ -363,15 +357,15 @@ std::vector<std::string> SegmentFitter::Fit(double from, double to)
                                               : shareOf(a) < shareOf(b);
     });
   double left = this->Options.MaximumControlPoints, open = 1.0, reserved = 0.0;
-  for (std::size_t p = 0; p < this->Parts.size(); ++p)
+  for (std::size_t p = 0; p < this->Segmented.Parts.size(); ++p)
   {
     reserved += this->Fewest(static_cast<std::int32_t>(p));
   }
   if (const auto& domains = this->Options.Domains;
       !this->Options.Compared && !domains.empty() &&
-      domains.front().BlocksOf.count(this->Parts[0].Label) > 0)
+      domains.front().BlocksOf.count(this->Segmented.Parts[0].Label) > 0)
   {
-    this->Warnings.push_back("Segment " + std::to_string(this->Parts[0].Label) +
+    this->Warnings.push_back("Segment " + std::to_string(this->Segmented.Parts[0].Label) +
                              " is fitted over its bounding box: the lowest label takes the voxels "
                              "that others miss.");
   }
@@ -407,7 +401,8 @@ vtkIdType SegmentFitter::CountPoints(const Unit& unit) const
   for (const std::int32_t number : unit)
   {
     const FittedPart& fitted = this->Fitted[number];
-    count += fitted.Together == this->Parts[number].Label ? LastControlPoints(fitted.Rounds) : 0;
+    count +=
+      fitted.Together == this->Segmented.Parts[number].Label ? LastControlPoints(fitted.Rounds) : 0;
   }
   return count;
 }
@@ -417,21 +412,21 @@ SegmentFits SegmentFitter::Join(vtkTable* rounds) const
 {
   SegmentFits whole{ {}, 0, 0.0 };
   double squares = 0.0;
-  for (std::size_t p = 0; p < this->Parts.size(); ++p)
+  for (std::size_t p = 0; p < this->Segmented.Parts.size(); ++p)
   {
     whole.Model = JoinParts(whole.Model, this->Fitted[p].Model);
     squares += this->Fitted[p].Squares;
     whole.ControlPoints += this->CountPoints({ static_cast<std::int32_t>(p) });
-    AddRounds(this->Fitted[p], this->Parts[p].Label, rounds);
+    AddRounds(this->Fitted[p], this->Segmented.Parts[p].Label, rounds);
   }
-  vtkDataArray* labels = this->Image->GetPointData()->GetArray("Segment");
-  for (vtkIdType voxel = 0; voxel < this->Image->GetNumberOfPoints(); ++voxel)
+  vtkDataArray* labels = this->Segmented.Image->GetPointData()->GetArray("Segment");
+  for (vtkIdType voxel = 0; voxel < labels->GetNumberOfTuples(); ++voxel)
   {
-    labels->SetTuple1(voxel, this->Parts[this->PartOf[voxel]].Label);
+    labels->SetTuple1(voxel, this->Segmented.Parts[this->Segmented.PartOf[voxel]].Label);
   }
   if (this->Range > 0.0)
   {
-    const auto voxels = static_cast<double>(this->Image->GetNumberOfPoints());
+    const auto voxels = static_cast<double>(labels->GetNumberOfTuples());
     whole.RmsPercent = 100.0 * std::sqrt(squares / voxels) / this->Range;
   }
   return whole;

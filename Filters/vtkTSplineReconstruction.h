@@ -14,16 +14,17 @@
  * other segments masked. With Domain AUTOMATIC every segment for which vtkPolycubeDomain finds a
  * domain is fitted again, over its cubes with layers and without (vtkFrameField,
  * vtkVolumeParameterization), with as many control points, and what is most accurate in the round
- * trip is kept. Segments whose domains share a surface, one around another or side by side, are
- * fitted over it together, with layers: there is no gap between them, while attributes jump; where
- * boxes are more accurate for them, or one has folds, each is fitted by itself. Then one spline is
- * fitted over the whole image, and if it is more accurate than all segments together (or, where
- * both meet the tolerance, has fewer control points), it is the result, and a warning says so. With
- * Domain GIVEN the segments with a domain in the second input are fitted over that. A warning tells
- * why a segment with a domain stays with its box, or with cubes without layers: half or more of the
- * blocks that were found are inverted between their corners, folds, voxels that are missed. Up to 2
- * % of a segment's voxels may be missed; these are counted to the lowest segment, which is
- * therefore always fitted over its box.
+ * trip is kept. Cubes that are less accurate than the box with an eighth of the control points
+ * already (64 for each block, if that is more) are not tried with all. Segments whose domains share
+ * a surface, one around another or side by side, are fitted over it together, with layers: there is
+ * no gap between them, while attributes jump; where boxes are more accurate for them, or one has
+ * folds, each is fitted by itself. Then one spline is fitted over the whole image, and if it is
+ * more accurate than all segments together (or, where both meet the tolerance, has fewer control
+ * points), it is the result, and a warning says so. With Domain GIVEN the segments with a domain in
+ * the second input are fitted over that. A warning tells why a segment with a domain stays with its
+ * box, or with cubes without layers: half or more of the blocks that were found are inverted
+ * between their corners, folds, voxels that are missed. Up to 2 % of a segment's voxels may be
+ * missed; these are counted to the lowest segment, which is therefore always fitted over its box.
  *
  * @par Input
  * Port 0: a vtkImageData with two or more points along each axis. The point array to fit is chosen

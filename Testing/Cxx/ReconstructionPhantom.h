@@ -4,6 +4,7 @@
 #ifndef ReconstructionPhantom_h
 #define ReconstructionPhantom_h
 
+#include "vtkReconstructionReport.h"
 #include "vtkTSplineReconstruction.h"
 
 #include "vtkFloatArray.h"
@@ -12,6 +13,7 @@
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkSmartPointer.h"
+#include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <gtest/gtest.h>
@@ -61,6 +63,21 @@ inline vtkSmartPointer<vtkTSplineReconstruction> Reconstruct(vtkImageData* image
     1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Material");
   reconstruction->SetMaximumNumberOfControlPoints(1500);
   return reconstruction;
+}
+
+// The report on a reconstruction, with all that it tells.
+inline vtkNew<vtkTable> ReportOn(vtkTSplineReconstruction* reconstruction)
+{
+  vtkNew<vtkReconstructionReport> report;
+  report->SetInputConnection(0, reconstruction->GetOutputPort(2));
+  report->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
+  report->SetTSplineConnection(reconstruction->GetOutputPort());
+  report->SetSurfacesConnection(reconstruction->GetOutputPort(4));
+  report->SetRoundsConnection(reconstruction->GetOutputPort(1));
+  report->Update();
+  vtkNew<vtkTable> table;
+  table->DeepCopy(report->GetOutput());
+  return table;
 }
 
 template <typename DataT>

@@ -3,7 +3,6 @@
 #include "ErrorLog.h"
 #include "ReconstructionPhantom.h"
 #include "vtkPolycubeDomain.h"
-#include "vtkReconstructionReport.h"
 #include "vtkSegmentBoundary.h"
 #include "vtkTSplineFit.h"
 
@@ -54,21 +53,6 @@ std::map<std::array<double, 3>, std::array<double, 3>> CornersOf(vtkUnstructured
     }
   }
   return corners;
-}
-
-// The report on a reconstruction, with all that it tells.
-vtkNew<vtkTable> ReportOn(vtkTSplineReconstruction* reconstruction)
-{
-  vtkNew<vtkReconstructionReport> report;
-  report->SetInputConnection(0, reconstruction->GetOutputPort(2));
-  report->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
-  report->SetTSplineConnection(reconstruction->GetOutputPort());
-  report->SetSurfacesConnection(reconstruction->GetOutputPort(4));
-  report->SetRoundsConnection(reconstruction->GetOutputPort(1));
-  report->Update();
-  vtkNew<vtkTable> table;
-  table->DeepCopy(report->GetOutput());
-  return table;
 }
 
 // Distinct ones: those of the last round of each segment. Over cubes some points of the grid stand
@@ -196,80 +180,6 @@ TEST(TSplineReconstruction, TakesOneSplineForAllWhereThatIsBetter)
   {
     EXPECT_EQ(report->GetValueByName(row, "Domain").ToString(), "ImageBox");
     EXPECT_TRUE(std::isnan(report->GetValueByName(row, "Corners").ToDouble()));
-  }
-}
-
-//------------------------------------------------------------------------------
-// A ball inside of a shell, each with rings of its own: they share the surface between them and are
-// fitted together. Their control points there are the same to the last bit, densities jump.
-TEST(TSplineReconstruction, FitsSegmentsThatTouchTogether)
-{
-  vtkNew<vtkImageData> image;
-  constexpr int N = 28;
-  image->SetDimensions(N, N, N);
-  image->SetOrigin(-0.5 * (N - 1), -0.5 * (N - 1), -0.5 * (N - 1));
-  vtkNew<vtkFloatArray> density;
-  density->SetName("Density");
-  vtkNew<vtkIntArray> labels;
-  labels->SetName("Material");
-  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
-  {
-    double x[3];
-    image->GetPoint(i, x);
-    const double r = std::hypot(x[0], x[1], x[2]);
-    const int label = r < 6.4 ? 2 : r < 11.8 ? 1 : 0;
-    labels->InsertNextValue(label);
-    density->InsertNextValue(static_cast<float>(label == 2   ? 200.0 + 15.0 * std::cos(0.9 * r)
-                                                : label == 1 ? 100.0 + 30.0 * std::cos(1.2 * r)
-                                                             : 10.0));
-  }
-  image->GetPointData()->SetScalars(density);
-  image->GetPointData()->AddArray(labels);
-  auto reconstruction = Reconstruct(image);
-  reconstruction->SetDomainToAutomatic();
-  reconstruction->SetRMSTolerance(0.0);
-  reconstruction->SetMaximumNumberOfControlPoints(2000);
-  reconstruction->Update();
-
-  const auto report = ReportOn(reconstruction);
-  ASSERT_EQ(report->GetNumberOfRows(), 4);
-  for (const vtkIdType row : { 1, 2 })
-  {
-    EXPECT_EQ(report->GetValueByName(row, "Domain").ToString(), "LayeredCubes");
-    EXPECT_EQ(report->GetValueByName(row, "FoundPercent").ToDouble(), 100.0);
-    EXPECT_GT(report->GetValueByName(row, "GradientJumpPercent").ToDouble(), 0.0);
-    EXPECT_LT(report->GetValueByName(row, "GradientJumpPercent").ToDouble(), 5.0);
-  }
-  EXPECT_LT(report->GetValueByName(3, "RoundTripRMSPercent").ToDouble(), 0.2);
-  EXPECT_LE(report->GetValueByName(3, "RoundTripRMSPercent").ToDouble(),
-    1.05 * report->GetValueByName(3, "RMSPercent").ToDouble());
-
-  std::map<double, std::set<std::array<double, 3>>> places;
-  auto* spline = reconstruction->GetOutput();
-  for (vtkIdType p = 0; p < spline->GetNumberOfPoints(); ++p)
-  {
-    std::array<double, 3> x;
-    spline->GetPoint(p, x.data());
-    places[spline->GetPointData()->GetArray("Segment")->GetTuple1(p)].insert(x);
-  }
-  const auto common = std::count_if(places[1].begin(), places[1].end(),
-    [&places](const std::array<double, 3>& x) { return places[2].count(x) > 0; });
-  EXPECT_GE(common, 56); // 4 x 4 on each face of a cube, or more
-
-  // Each voxel has its parameter in blocks of its own segment.
-  auto* fields = Output<vtkImageData>(reconstruction, 6);
-  auto* cubes = Output<vtkUnstructuredGrid>(reconstruction, 5);
-  std::map<double, double> segmentOf;
-  for (vtkIdType cube = 0; cube < cubes->GetNumberOfCells(); ++cube)
-  {
-    segmentOf[cubes->GetCellData()->GetArray("Block")->GetTuple1(cube)] =
-      cubes->GetCellData()->GetArray("Segment")->GetTuple1(cube);
-  }
-  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
-  {
-    const double block = fields->GetPointData()->GetArray("Block")->GetTuple1(i);
-    const double label = labels->GetTuple1(i);
-    EXPECT_EQ(block < 0.0 ? 0.0 : segmentOf.at(block), label);
   }
 }
 
