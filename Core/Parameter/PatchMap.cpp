@@ -9,6 +9,7 @@
 #include <Eigen/SparseLU>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -304,22 +305,51 @@ std::vector<Vector2d> PatchMap::Solved(
   return square;
 }
 
+// Fewer of them where long triangles would be in very many.
 void PatchMap::FillBuckets()
 {
-  this->BucketsAlong = std::max(1, static_cast<int>(std::sqrt(double(this->Triangles.size()) / 2)));
-  this->Buckets.resize(std::size_t(this->BucketsAlong) * this->BucketsAlong);
-  const auto bucket = [this](double x)
-  { return std::clamp(static_cast<int>(x * this->BucketsAlong), 0, this->BucketsAlong - 1); };
+  constexpr std::size_t mostOfTriangle = 16;
+  const std::size_t most = mostOfTriangle * this->Triangles.size();
+  int along = std::max(1, static_cast<int>(std::sqrt(double(this->Triangles.size()) / 2)));
+  const auto range = [&along](const Vector2d& low, const Vector2d& high, int axis)
+  {
+    const auto bucket = [along](double x)
+    { return std::clamp(static_cast<int>(x * along), 0, along - 1); };
+    return std::array<int, 2>{ bucket(low[axis] - 1e-9), bucket(high[axis] + 1e-9) };
+  };
+  const auto bounds = [this](const Triangle& c)
+  {
+    const Vector2d &p = this->Square[c[0]], &q = this->Square[c[1]], &r = this->Square[c[2]];
+    return std::array<Vector2d, 2>{ p.cwiseMin(q).cwiseMin(r), p.cwiseMax(q).cwiseMax(r) };
+  };
+  const auto countEntries = [&]()
+  {
+    std::size_t count = 0;
+    for (const Triangle& c : this->Triangles)
+    {
+      const auto [low, high] = bounds(c);
+      const auto [i0, i1] = range(low, high, 0);
+      const auto [j0, j1] = range(low, high, 1);
+      count += std::size_t(i1 - i0 + 1) * std::size_t(j1 - j0 + 1);
+    }
+    return count;
+  };
+  while (along > 1 && countEntries() > most)
+  {
+    along /= 2;
+  }
+  this->BucketsAlong = along;
+  this->Buckets.resize(std::size_t(along) * along);
   for (std::size_t t = 0; t < this->Triangles.size(); ++t)
   {
-    const Triangle& c = this->Triangles[t];
-    const Vector2d &p = this->Square[c[0]], &q = this->Square[c[1]], &r = this->Square[c[2]];
-    const Vector2d low = p.cwiseMin(q).cwiseMin(r), high = p.cwiseMax(q).cwiseMax(r);
-    for (int j = bucket(low[1] - 1e-9); j <= bucket(high[1] + 1e-9); ++j)
+    const auto [low, high] = bounds(this->Triangles[t]);
+    const auto [i0, i1] = range(low, high, 0);
+    const auto [j0, j1] = range(low, high, 1);
+    for (int j = j0; j <= j1; ++j)
     {
-      for (int i = bucket(low[0] - 1e-9); i <= bucket(high[0] + 1e-9); ++i)
+      for (int i = i0; i <= i1; ++i)
       {
-        this->Buckets[i + std::size_t(this->BucketsAlong) * j].push_back(static_cast<Index>(t));
+        this->Buckets[i + std::size_t(along) * j].push_back(static_cast<Index>(t));
       }
     }
   }

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
 using namespace trivariate;
 using namespace trivariate_testing;
 using Eigen::Vector2d;
@@ -115,4 +117,60 @@ TEST(PatchMap, StopsWithinASecond)
   Watch watch;
   EXPECT_THROW(PatchMap(domain, 5, watch.Until(0.12)), Aborted); // in the second round
   EXPECT_LT(watch.LongestLook, 1.0);
+}
+
+//------------------------------------------------------------------------------
+// A square with 16,000 slivers along its diagonal, each as long as it: a grid over their boxes
+// would have more than 10^8 entries.
+TEST(PatchMap, OfSliversTakesLittleMemory)
+{
+  constexpr int n = 8000;
+  DomainParts parts;
+  parts.Segments = { 1 };
+  for (Index c = 0; c < 8; ++c)
+  {
+    parts.Points.emplace_back(c & 1, c >> 1 & 1, c >> 2);
+  }
+  parts.Blocks = { { 0, 1, 2, 3, 4, 5, 6, 7 } };
+  const auto add = [&parts](double x, double y, Index corner)
+  {
+    parts.SurfacePoints.emplace_back(x, y, 1.0);
+    parts.CornerOf.push_back(corner);
+    return static_cast<Index>(parts.SurfacePoints.size()) - 1;
+  };
+  const Index right = add(1.0, 0.0, 5), left = add(0.0, 1.0, 6);
+  std::vector<Index> low, high;
+  for (int i = 0; i <= n; ++i)
+  {
+    const double at = 0.3 * i / n;
+    low.push_back(add(at, 0.0, i == 0 ? 4 : -1));
+    high.push_back(add(1.0, 1.0 - at, i == 0 ? 7 : -1));
+  }
+  parts.Parameters = parts.SurfacePoints;
+  parts.Triangles = { { low[0], high[0], left }, { low[n], right, high[n] } };
+  for (int i = 0; i < n; ++i)
+  {
+    parts.Triangles.push_back({ low[i], low[i + 1], high[i] });
+    parts.Triangles.push_back({ low[i + 1], high[i + 1], high[i] });
+  }
+  parts.PatchOf.assign(parts.Triangles.size(), 0);
+  const BlockDomain domain(std::move(parts));
+
+  const auto peak = []()
+  {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss; // in kB
+  };
+  const long before = peak();
+  const PatchMap map(domain, 0, Execution());
+  EXPECT_LT(peak() - before, 100000);
+  const Vector2d base = map.CornerOf(4);
+  const Vector2d along = map.CornerOf(5) - base, across = map.CornerOf(6) - base;
+  for (const Vector2d& place :
+    { Vector2d(0.2, 0.1), Vector2d(0.6, 0.55), Vector2d(0.99, 0.98), Vector2d(0.1, 0.8) })
+  {
+    const Vector2d st = base + place[0] * along + place[1] * across;
+    EXPECT_LT((map.At(st) - Vector3d(place[0], place[1], 1.0)).norm(), 1e-6);
+  }
 }
