@@ -62,10 +62,9 @@
  *   and on the right, seen from outside.
  *
  * @par Cost
- * A surface of 1e5 triangles: some seconds for each segment and 0.4 GB; growth is close to linear.
- * Aborting takes less than a second up to there; in larger surfaces one sparse factorisation, which
- * takes a second for each 1e5 triangles, is not interrupted. The corners found are kept, so that
- * corners picked from there take less.
+ * Some seconds for each segment, 1 to 2 more for each 1e5 triangles, and 0.4 GB for each 1e5
+ * triangles: surfaces of more than 40000 are searched on 20000 of them, and only the domain found is
+ * laid out on all. The corners found are kept, so that corners picked from there take less.
  *
  * @par Distributed data
  * Under several processes the pieces are gathered to process 0 with a warning; it gives the same

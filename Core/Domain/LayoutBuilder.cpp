@@ -11,6 +11,8 @@ namespace
 {
 constexpr int Rounds = 3;
 constexpr double Worthwhile = 0.999; // of the present length
+constexpr Index MostCuts = 10;       // times the triangles given, and
+constexpr Index CutsPerBorder = 50;
 
 // The next point along a marked border, not the one that it comes from.
 Index Follow(const LayoutMesh& mesh, Index border, Index from, Index point)
@@ -42,6 +44,13 @@ void MarkAll(LayoutMesh& mesh, const std::vector<Index>& points, Index mark)
     }
   }
 }
+}
+
+//------------------------------------------------------------------------------
+bool LayoutBuilder::IsShredded() const
+{
+  const Index borders = static_cast<Index>(this->Borders.size());
+  return this->Mesh.NumberOfTriangles() > MostCuts * (this->Given + CutsPerBorder * borders);
 }
 
 //------------------------------------------------------------------------------
@@ -104,20 +113,40 @@ double LayoutBuilder::StraightenStretch(Index border, const std::vector<Index>& 
 }
 
 //------------------------------------------------------------------------------
-void LayoutBuilder::Straighten(double stretch, const Execution& execution)
+// Returns the border's length.
+double LayoutBuilder::TightenBorder(Index border)
+{
+  const std::vector<Index> points = this->PointsOf(border);
+  const double length = PolylineLength(this->Mesh, points);
+  MarkAll(this->Mesh, points, -1);
+  const std::vector<Index> path = TightenPath(this->Mesh, points, border, Worthwhile * length);
+  if (path.empty())
+  {
+    MarkAll(this->Mesh, points, border);
+    return length;
+  }
+  return PolylineLength(this->Mesh, path);
+}
+
+//------------------------------------------------------------------------------
+// `straighten` takes a border and a round, and returns the border's length then.
+template <typename Border>
+void LayoutBuilder::InRounds(const Border& straighten, const Execution& execution)
 {
   double before = std::numeric_limits<double>::infinity();
   for (int round = 0; round < Rounds; ++round)
   {
-    // Each second round straightens across the ends of the stretches of the round before.
-    const double first = round % 2 ? 0.5 * stretch : stretch;
     double length = 0.0;
     for (std::size_t border = 0; border < this->Borders.size(); ++border)
     {
       execution.Check((round + double(border) / double(this->Borders.size())) / Rounds);
+      if (this->IsShredded())
+      {
+        return;
+      }
       if (this->Fixed.count(static_cast<Index>(border)) == 0)
       {
-        length += this->StraightenBorder(static_cast<Index>(border), first, stretch);
+        length += straighten(static_cast<Index>(border), round);
       }
     }
     if (length >= Worthwhile * before)
@@ -126,6 +155,21 @@ void LayoutBuilder::Straighten(double stretch, const Execution& execution)
     }
     before = length;
   }
+}
+
+//------------------------------------------------------------------------------
+void LayoutBuilder::Straighten(double stretch, const Execution& execution)
+{
+  // Each second round straightens across the ends of the stretches of the round before.
+  this->InRounds([this, stretch](Index border, int round)
+    { return this->StraightenBorder(border, round % 2 ? 0.5 * stretch : stretch, stretch); },
+    execution);
+}
+
+//------------------------------------------------------------------------------
+void LayoutBuilder::Tighten(const Execution& execution)
+{
+  this->InRounds([this](Index border, int) { return this->TightenBorder(border); }, execution);
 }
 
 //------------------------------------------------------------------------------

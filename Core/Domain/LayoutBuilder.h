@@ -17,12 +17,21 @@ class LayoutBuilder
 public:
   explicit LayoutBuilder(const SurfaceMesh& mesh)
     : Mesh(mesh)
+    , Given(mesh.NumberOfTriangles())
   {
   }
 
+  /// Whether there are many times as many triangles as borders in each other's way need: they wind
+  /// around each other, each cutting what the others cut.
+  bool IsShredded() const;
+
   /// Replaces stretches of all borders but the fixed ones, at most so long, by geodesics between
-  /// the same points within the union of the patches on their two sides, in rounds.
+  /// the same points within the union of the patches on their two sides, in rounds; no further
+  /// where that shreds the mesh.
   void Straighten(double stretch, const Execution& execution);
+
+  /// Makes them locally shortest without looking farther around (TightenPath), in rounds.
+  void Tighten(const Execution& execution);
 
   /// Fills the patches from both sides of all borders. Throws std::runtime_error naming a patch
   /// where borders do not separate it from another.
@@ -35,9 +44,13 @@ public:
   std::set<Index> Fixed;             // borders that stay where they are
 
 private:
+  const Index Given; // triangles
   std::vector<Index> PointsOf(Index border) const;
+  template <typename Border>
+  void InRounds(const Border& straighten, const Execution& execution);
   double StraightenBorder(Index border, double first, double stretch);
   double StraightenStretch(Index border, const std::vector<Index>& points);
+  double TightenBorder(Index border);
 };
 }
 

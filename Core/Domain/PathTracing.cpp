@@ -61,10 +61,53 @@ std::vector<Station> StationsOf(const LayoutMesh& mesh, const Geodesic& path)
   return stations;
 }
 
-void MarkEdge(LayoutMesh& mesh, Index p, Index q, Index mark)
+void MarkPath(LayoutMesh& mesh, const std::vector<Index>& points, Index mark)
 {
-  const Index t = mesh.TriangleLeftOf(p, q);
-  mesh.SetMark(t, mesh.CornerOf(t, p), mark);
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+  {
+    const Index t = mesh.TriangleLeftOf(points[i], points[i + 1]);
+    mesh.SetMark(t, mesh.CornerOf(t, points[i]), mark);
+    mesh.Occupied[points[i]] = 1;
+  }
+}
+
+// Adds the points of the straightened way through a row of triangles, all but its end; false where
+// it is not shorter than worthwhile.
+bool SplitAlong(LayoutMesh& mesh, Index end, std::vector<Crossing> row, double worthwhile,
+  std::vector<Index>& points)
+{
+  const Geodesic path = Straighten(mesh, points.front(), end, std::move(row));
+  if (path.Length >= worthwhile)
+  {
+    return false;
+  }
+  for (const Station& station : StationsOf(mesh, path))
+  {
+    Index point = station.Point;
+    if (point < 0)
+    {
+      const Index t = mesh.TriangleLeftOf(station.Right, station.Left);
+      point = mesh.SplitEdge(t, mesh.CornerOf(t, station.Right), station.Fraction);
+    }
+    points.push_back(point);
+  }
+  return true;
+}
+
+// The triangles on the left of a polyline along edges.
+std::vector<Crossing> RowBeside(const LayoutMesh& mesh, const std::vector<Index>& points)
+{
+  std::vector<Crossing> row;
+  Index t = mesh.TriangleLeftOf(points[0], points[1]);
+  for (std::size_t i = 1; i + 1 < points.size(); ++i)
+  {
+    const Index end = mesh.TriangleLeftOf(points[i], points[i + 1]);
+    for (; t != end; t = mesh.Clockwise(t, points[i]))
+    {
+      row.push_back(3 * t + mesh.CornerOf(t, points[i]));
+    }
+  }
+  return row;
 }
 
 // Ends with a common triangle are joined by an edge of it. Where that is another border, or leads
@@ -115,29 +158,30 @@ std::vector<Index> TracePath(
       throw std::runtime_error("No path from point " + std::to_string(from.Point) + " to point " +
                                std::to_string(to.Point) + ": other borders lie between them.");
     }
-    const Geodesic path = Straighten(mesh, from.Point, to.Point, std::move(sleeve));
-    if (path.Length >= worthwhile)
+    if (!SplitAlong(mesh, to.Point, std::move(sleeve), worthwhile, points))
     {
       return {};
     }
-    for (const Station& station : StationsOf(mesh, path))
-    {
-      Index point = station.Point;
-      if (point < 0)
-      {
-        const Index t = mesh.TriangleLeftOf(station.Right, station.Left);
-        point = mesh.SplitEdge(t, mesh.CornerOf(t, station.Right), station.Fraction);
-      }
-      points.push_back(point);
-    }
   }
   points.push_back(to.Point);
-  for (std::size_t i = 0; i + 1 < points.size(); ++i)
-  {
-    MarkEdge(mesh, points[i], points[i + 1], mark);
-    mesh.Occupied[points[i]] = 1;
-  }
+  MarkPath(mesh, points, mark);
   return points;
+}
+
+//------------------------------------------------------------------------------
+std::vector<Index> TightenPath(
+  LayoutMesh& mesh, const std::vector<Index>& points, Index mark, double worthwhile)
+{
+  std::vector<Crossing> row = RowBeside(mesh, points);
+  std::vector<Index> path(1, points.front());
+  if (row.empty() || mesh.TriangleLeftOf(points.front(), points.back()) >= 0 ||
+      !SplitAlong(mesh, points.back(), std::move(row), worthwhile, path))
+  {
+    return {};
+  }
+  path.push_back(points.back());
+  MarkPath(mesh, path, mark);
+  return path;
 }
 
 //------------------------------------------------------------------------------

@@ -31,6 +31,12 @@ namespace trivariate
 std::vector<Index> TracePath(LayoutMesh& mesh, PathEnd from, PathEnd to, Index mark,
   double worthwhile = std::numeric_limits<double>::infinity());
 
+/// The same for a polyline along unmarked edges that are in no other's way: the shortest path near
+/// it, led around points one by one as long as that shortens it. No search. Nothing is cut, and
+/// nothing returned, where it is not shorter than `worthwhile`.
+std::vector<Index> TightenPath(
+  LayoutMesh& mesh, const std::vector<Index>& points, Index mark, double worthwhile);
+
 /// The length of a polyline of mesh points.
 double PolylineLength(const LayoutMesh& mesh, const std::vector<Index>& points);
 }

@@ -8,6 +8,7 @@
 
 #include "ChartRelabelling.h"
 #include "Polycube.h"
+#include "SurfaceReduction.h"
 
 #include <limits>
 
@@ -67,15 +68,36 @@ struct GivenBorder
  * every edge finds its way, wherever the corners are, and every face is a disc. Then each border is
  * straightened as for charts.
  *
+ * On more than ManyTriangles, unless borders are given, all this is done on a surface of few
+ * triangles, borders are led along those found there (LayoutAlong) and made locally shortest within
+ * the rows of triangles that they pass; where that fails, as above.
+ *
  * Throws std::invalid_argument when there are more or fewer places than corners, one is farther
  * than `farthest` from the surface, two fall on one point, the places are those of a mirrored
  * polycube, or surface and polycube differ in their numbers of components or handles;
- * std::runtime_error, naming the patch, where the borders around a handle do not bound discs.
+ * std::runtime_error, naming the patch, where the borders around a handle do not bound discs, and
+ * where paths have to wind around each other so much that they cut the surface to shreds.
  */
 SurfaceLayout LayoutFromCorners(const SurfaceMesh& mesh, const Polycube& polycube,
   const std::vector<Eigen::Vector3d>& corners, const Execution& execution,
   double farthest = std::numeric_limits<double>::infinity(),
   const std::vector<GivenBorder>& given = {});
+
+/// Surfaces with more triangles are not searched as they are.
+constexpr Index ManyTriangles = 40000;
+
+/**
+ * A layout of a reduced surface taken to the surface itself: paths between points that both have
+ * near the borders (BorderGuide.h), straightened over `stretch` mean edges of the reduced surface,
+ * or, if infinite, made locally shortest as a whole. Corners at the given places, or where the
+ * reduced surface has them. O(n), and for each border the area within a few edges of it.
+ *
+ * Throws std::runtime_error where a border cannot follow, and where CheckLayout finds something.
+ */
+SurfaceLayout LayoutAlong(const SurfaceMesh& mesh, const Polycube& polycube,
+  const ReducedSurface& few, const SurfaceLayout& layout, const Execution& execution,
+  const std::vector<Eigen::Vector3d>& corners = {},
+  double stretch = std::numeric_limits<double>::infinity());
 }
 
 #endif

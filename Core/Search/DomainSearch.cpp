@@ -6,13 +6,12 @@
 #include "Domain/DomainMeasures.h"
 #include "Domain/InnerCorners.h"
 #include "Domain/LayoutCheck.h"
-#include "Domain/RelaxedLayout.h"
+#include "Domain/SurfaceReduction.h"
 #include "FlatPolycube.h"
 #include "HandleLoop.h"
 #include "NormalAxes.h"
 #include "Parameter/CoarseHexahedra.h"
 #include "PolycubeFit.h"
-#include "SurfaceReduction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -127,13 +126,8 @@ SegmentDomain DomainSearch::Best()
   {
     if (best->Domain)
     {
-      SegmentDomain& domain = *best->Domain;
-      if (this->Options.Relax &&
-          Relax(domain.Layout, domain.Cubes, false, this->Run.Part(0.85, 1.0)))
-      {
-        best->IsOfCharts ? this->Charts->Measure(domain) : MeasureStraight(domain);
-      }
-      return std::move(domain);
+      this->IsOfCharts = best->IsOfCharts;
+      return std::move(*best->Domain);
     }
     this->Try([this, best]() { this->LayOut(*best); });
     if (!best->Domain)
@@ -143,6 +137,12 @@ SegmentDomain DomainSearch::Best()
   }
   throw std::runtime_error(
     "No domain was found for the surface." + this->Handles() + this->Reasons);
+}
+
+//------------------------------------------------------------------------------
+void DomainSearch::Measure(SegmentDomain& domain) const
+{
+  this->IsOfCharts ? this->Charts->Measure(domain) : MeasureStraight(domain);
 }
 
 //------------------------------------------------------------------------------

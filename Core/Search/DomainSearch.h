@@ -21,6 +21,13 @@ public:
   /// Throws std::runtime_error with the reasons where there is none.
   SegmentDomain Best();
 
+  /// Gives a domain that Best found, but on other borders, places and alignment. Triangles of the
+  /// surface are its origins.
+  void Measure(SegmentDomain& domain) const;
+
+  /// Whether its borders are those of charts, not paths between corners.
+  bool FoundCharts() const { return this->IsOfCharts; }
+
 private:
   struct Candidate;
   struct Fitted
@@ -56,6 +63,7 @@ private:
   std::unique_ptr<SurfaceMesh> Small;  // of fewer triangles
   std::unique_ptr<ChartDomain> Charts; // of the surface or of that of fewer triangles
   double ChartAlignment = 0.0;
+  bool IsOfCharts = false; // the one returned
   std::vector<Candidate> Found;
   std::string Reasons;
 };

@@ -7,7 +7,7 @@
 #include "Domain/InnerPath.h"
 #include "Domain/TriangleTree.h"
 #include "Parameter/CoarseHexahedra.h"
-#include "SurfaceReduction.h"
+#include "Domain/SurfaceReduction.h"
 
 #include <Eigen/LU>
 

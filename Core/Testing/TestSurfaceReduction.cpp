@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Search/SurfaceReduction.h"
+#include "Domain/SurfaceReduction.h"
 #include "SegmentSurfaces.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 using namespace trivariate;
 using namespace trivariate_testing;
@@ -32,6 +34,28 @@ TEST(SurfaceReduction, KeepsVolumeAndHandles)
     EXPECT_GT(less.NumberOfTriangles(), 990);
     EXPECT_EQ(less.EulerCharacteristic(), mesh->EulerCharacteristic());
     EXPECT_NEAR(VolumeOf(less) / VolumeOf(*mesh), 1.0, 0.02);
+  }
+}
+
+TEST(SurfaceReduction, TellsWhatBecameOfWhat)
+{
+  const SurfaceMesh ball = Icosphere(5);
+  const ReducedSurface less = Reduce(ball, 1000, Execution());
+  ASSERT_EQ(static_cast<Index>(less.Points.size()), less.Mesh.NumberOfPoints());
+  for (std::size_t p = 0; p < less.Points.size(); ++p)
+  {
+    EXPECT_EQ(less.Mesh.Points[p], ball.Points.at(less.Points[p]));
+  }
+  ASSERT_EQ(less.TriangleFor.size(), ball.Triangles.size());
+  for (std::size_t t = 0; t < ball.Triangles.size(); ++t)
+  {
+    const Eigen::Vector3d& before = ball.Points[ball.Triangles[t][0]];
+    double nearest = 2.0;
+    for (const Index p : less.Mesh.Triangles.at(less.TriangleFor[t]))
+    {
+      nearest = std::min(nearest, (less.Mesh.Points[p] - before).norm());
+    }
+    EXPECT_LT(nearest, 0.3);
   }
 }
 

@@ -4,8 +4,8 @@
 #ifndef trivariate_SurfaceReduction_h
 #define trivariate_SurfaceReduction_h
 
-#include "Domain/SurfaceMesh.h"
 #include "Execution.h"
+#include "SurfaceMesh.h"
 
 namespace trivariate
 {
@@ -17,6 +17,16 @@ namespace trivariate
  * O(n log n); 1e5 triangles: half a second.
  */
 SurfaceMesh Reduced(const SurfaceMesh& mesh, Index triangles, const Execution& execution);
+
+/// The same, and what became of what.
+struct ReducedSurface
+{
+  SurfaceMesh Mesh;
+  std::vector<Index> Points;      ///< of each of its points: which of the given ones it is
+  std::vector<Index> TriangleFor; ///< of each given triangle: one that took its place
+};
+
+ReducedSurface Reduce(const SurfaceMesh& mesh, Index triangles, const Execution& execution);
 }
 
 #endif

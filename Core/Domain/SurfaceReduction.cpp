@@ -66,10 +66,12 @@ class Reducer
 public:
   explicit Reducer(const SurfaceMesh& mesh)
     : Points(mesh.Points)
+    , Given(mesh.Triangles)
     , Triangles(mesh.Triangles)
     , Around(mesh.Points.size())
     , Quadrics(mesh.Points.size())
     , Versions(mesh.Points.size(), 0)
+    , DrawnInto(mesh.Points.size(), -1)
     , Left(mesh.NumberOfTriangles())
   {
     for (const Vector3d& point : this->Points)
@@ -110,13 +112,14 @@ public:
     }
   }
 
-  SurfaceMesh Result() const
+  ReducedSurface Result() const
   {
-    std::vector<Index> number(this->Points.size(), -1);
+    std::vector<Index> number(this->Points.size(), -1), kept, numberOfTriangle, triangleAt;
     std::vector<Vector3d> points;
     std::vector<Triangle> triangles;
     for (Triangle c : this->Triangles)
     {
+      numberOfTriangle.push_back(c[0] >= 0 ? static_cast<Index>(triangles.size()) : Index(-1));
       if (c[0] >= 0)
       {
         for (Index& p : c)
@@ -125,13 +128,23 @@ public:
           {
             number[p] = static_cast<Index>(points.size());
             points.push_back(this->Points[p]);
+            kept.push_back(p);
+            triangleAt.push_back(numberOfTriangle.back());
           }
           p = number[p];
         }
         triangles.push_back(c);
       }
     }
-    return SurfaceMesh(std::move(points), std::move(triangles));
+    for (std::size_t t = 0; t < numberOfTriangle.size(); ++t)
+    {
+      if (numberOfTriangle[t] < 0)
+      {
+        numberOfTriangle[t] = triangleAt[number[this->EndOf(this->Given[t][0])]];
+      }
+    }
+    return { SurfaceMesh(std::move(points), std::move(triangles)), std::move(kept),
+      std::move(numberOfTriangle) };
   }
 
 private:
@@ -227,16 +240,29 @@ private:
       }
     }
     this->Around[from].clear();
+    this->DrawnInto[from] = to;
     this->Quadrics[to].Add(this->Quadrics[from]);
     ++this->Versions[to];
     this->Offer(to, true);
   }
 
+  // Where a point is in the end.
+  Index EndOf(Index p) const
+  {
+    while (this->DrawnInto[p] >= 0)
+    {
+      p = this->DrawnInto[p];
+    }
+    return p;
+  }
+
   const std::vector<Vector3d>& Points;
+  const std::vector<Triangle>& Given;
   std::vector<Triangle> Triangles; // { -1, -1, -1 }: gone
   std::vector<std::vector<Index>> Around;
   std::vector<Quadric> Quadrics; // about Centre
   std::vector<Index> Versions;
+  std::vector<Index> DrawnInto; // by each point; -1: still there
   Index Left;
   Vector3d Centre = Vector3d::Zero();
   std::priority_queue<Collapse, std::vector<Collapse>, Dearer> Queue;
@@ -246,10 +272,12 @@ private:
 //------------------------------------------------------------------------------
 SurfaceMesh Reduced(const SurfaceMesh& mesh, Index triangles, const Execution& execution)
 {
-  if (mesh.NumberOfTriangles() <= triangles)
-  {
-    return mesh;
-  }
+  return mesh.NumberOfTriangles() <= triangles ? mesh : Reduce(mesh, triangles, execution).Mesh;
+}
+
+//------------------------------------------------------------------------------
+ReducedSurface Reduce(const SurfaceMesh& mesh, Index triangles, const Execution& execution)
+{
   Reducer reducer(mesh);
   reducer.Run(triangles, execution);
   return reducer.Result();
