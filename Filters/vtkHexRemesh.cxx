@@ -30,6 +30,7 @@ namespace
 {
 // Of equal volumes beside right angles: less brings no better angles but cells of a third the size.
 constexpr double Evenness = 0.35;
+constexpr int Patience = 6; // sweeps, within which nearest points are found anew twice
 }
 
 vtkStandardNewMacro(vtkHexRemesh);
@@ -125,6 +126,7 @@ void vtkHexRemesh::Remesh(vtkInformationVector** inputVector, vtkInformationVect
   options.CellsPerBlock = this->CellsPerBlock;
   options.LayerCells = this->CellsPerBlock > 0 ? 0.0 : options.CellLength;
   options.Repair.Evenness = Evenness;
+  options.Repair.Patience = Patience;
   const double cells = CountCells(SizesOf(domain, options));
   if (cells > static_cast<double>(this->MostCells))
   {

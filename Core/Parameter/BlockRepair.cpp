@@ -34,7 +34,8 @@ constexpr int Spreads = 3;               // sweeps that spread nodes
 constexpr double Flat = 0.01;            // a determinant so small is treated as if it were inverted
 constexpr int WholeSweeps = 20;          // before only nodes near inverted cells move,
 constexpr int WholeEvery = 4;            // but for some sweeps
-constexpr int Rings = 3;                 // of cells around those
+constexpr int Rings = 3;                 // of cells around those,
+constexpr int SpreadRings = 1;           // fewer when nodes spread: more would give up whole limbs
 
 // By the least determinant around a node: where cells are inverted large enough that the energy
 // pulls them out. It is each node's own, so that one hopeless cell does not blunt it everywhere.
@@ -72,7 +73,7 @@ public:
   void Sweep(bool spreading, double done, const Execution& execution);
 
   /// Only nodes in some rings around cells that are inverted; or all of them.
-  void Activate(bool all);
+  void Activate(bool all, int rings = Rings);
 
   Index CountInverted(const Execution& execution);
   Index CountCells() const { return static_cast<Index>(this->Cells.Cells.size()); }
@@ -261,7 +262,7 @@ void Sweeper::Sweep(bool spreading, double done, const Execution& execution)
   }
 }
 
-void Sweeper::Activate(bool all)
+void Sweeper::Activate(bool all, int rings)
 {
   std::fill(this->Active.begin(), this->Active.end(), all);
   for (std::size_t c = 0; c < this->Determinants.size(); ++c)
@@ -274,7 +275,7 @@ void Sweeper::Activate(bool all)
       }
     }
   }
-  for (int ring = 0; ring < Rings && !all; ++ring)
+  for (int ring = 0; ring < rings && !all; ++ring)
   {
     const std::vector<char> before = this->Active;
     for (const BlockPoints& cell : this->Cells.Cells)
@@ -383,8 +384,9 @@ void Repair(BlockMesh& mesh, SlidingNodes& sliding, BoundaryFit& fit,
   std::optional<Kept> kept;
   const int mostUntangling = options.MostRounds * SweepsOfRound;
   const double all = mostUntangling + options.MostSmoothing;
-  double done = 0.0, untangled = 0.0; // shares of the work
-  double energy = std::numeric_limits<double>::infinity();
+  double done = 0.0, untangled = 0.0;                      // shares of the work
+  double energy = std::numeric_limits<double>::infinity(); // the least so far
+  int settled = 0;                                         // sweeps in a row
   for (int sweep = 0, untangling = 0, smoothing = 0;; ++sweep)
   {
     if (sweep % AssignEvery == 0)
@@ -393,6 +395,7 @@ void Repair(BlockMesh& mesh, SlidingNodes& sliding, BoundaryFit& fit,
     }
     const Index inverted = sweeper.CountInverted(execution);
     const int since = untangling % SweepsOfRound;
+    bool spreading = false;
     if (inverted > 0 && untangling > 0 && since == 0)
     {
       if (!kept || inverted < kept->Inverted)
@@ -412,7 +415,9 @@ void Repair(BlockMesh& mesh, SlidingNodes& sliding, BoundaryFit& fit,
       // Where folds stay, the nodes around them may leave the surface uncovered.
       const bool late = untangling >= SweepsOfRound;
       sweeper.Fitting = late ? LateFitting * options.Fitting : options.Fitting;
-      sweeper.Activate(untangling < WholeSweeps || (!late && untangling % WholeEvery == 0));
+      spreading = late && since < Spreads;
+      sweeper.Activate(untangling < WholeSweeps || (!late && untangling % WholeEvery == 0),
+        spreading ? SpreadRings : Rings);
       sweeper.Bluntest = BluntestAtFirst * std::pow(Sharpening, since);
       untangled = ++untangling / all;
       done = std::max(done, untangled);
@@ -423,15 +428,15 @@ void Repair(BlockMesh& mesh, SlidingNodes& sliding, BoundaryFit& fit,
       sweeper.Activate(true);
       const double now =
         sweeper.Energy(Sharp, execution) + options.Fitting * fit.Energy(mesh.Places);
-      if (now > (1.0 - options.Settled) * energy || smoothing == options.MostSmoothing)
+      settled = now > (1.0 - options.Settled) * energy ? settled + 1 : 0;
+      if (settled == options.Patience || smoothing == options.MostSmoothing)
       {
         break;
       }
-      energy = now;
+      energy = std::min(energy, now);
       ++smoothing;
       done = std::max(done, untangled + (1.0 - untangled) * smoothing / options.MostSmoothing);
     }
-    const bool spreading = inverted > 0 && untangling > SweepsOfRound && since < Spreads;
     sweeper.Sweep(spreading, done, execution);
   }
 }

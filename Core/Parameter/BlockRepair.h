@@ -16,7 +16,8 @@ struct RepairOptions
   int MostSmoothing = 40;      ///< sweeps afterwards
   double Fitting = 1000.0;     ///< the weight of BoundaryFit
   double Evenness = 1.0;       ///< the weight of equal volumes beside that of right angles
-  double Settled = 1e-3; ///< smoothing ends when a sweep lowers the energy by less than this share
+  double Settled = 1e-3; ///< smoothing ends when sweeps lower the energy by less than this share,
+  int Patience = 1;      ///< so many in a row: it may rise where nearest points are found anew
 };
 
 /// How good the cells of a mesh are.

@@ -241,6 +241,30 @@ TEST(BlockMeshing, CoversABump)
   EXPECT_LT(FarthestOf(domain, mesh), 0.75); // half a cell
 }
 
+TEST(BlockMeshing, CoversALimbWithPatience)
+{
+  // A ball with a limb as long as its radius, onto which nodes have to slide.
+  const SurfaceMesh surface = Moved(Icosphere(5),
+    [](const Vector3d& p)
+    {
+      const double limb = std::exp(-20.0 * (p - Vector3d(0.6, 0.64, 0.48)).squaredNorm());
+      return Vector3d((10.0 + 10.0 * limb) * p);
+    });
+  const SegmentDomain ball = FindDomain(surface, DomainOptions(), Execution());
+  const BlockDomain domain = DomainOfSegment(LayeredBlocks(ball, 2.5, Execution()), ball);
+  BlockMeshOptions options;
+  options.CellLength = 1.5;
+  options.Freedom = 0.5;
+  options.Repair.Patience = 1;
+  BlockMeshReport hasty, patient;
+  const BlockMesh early = MakeBlockMesh(domain, options, Execution(), &hasty);
+  options.Repair.Patience = 6;
+  const BlockMesh mesh = MakeBlockMesh(domain, options, Execution(), &patient);
+  ExpectSound(domain, mesh, VolumeOf(surface), 0.5, 0.005);
+  EXPECT_LT(FarthestOf(domain, mesh), FarthestOf(domain, early) - 0.01);
+  EXPECT_GT(patient.End.MeanJacobian, hasty.End.MeanJacobian + 0.001);
+}
+
 TEST(BlockMeshing, HasRightAnglesWhereLayersAreAsDeepAsCellsAreLong)
 {
   const SurfaceMesh surface =
