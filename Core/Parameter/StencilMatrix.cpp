@@ -156,22 +156,26 @@ void RelaxLine(const StencilMatrix& a, const Real* b, Real* x, Index line, bool 
   }
 }
 
-// One color after the other: no two lines of a color are neighbours.
+// One color after the other: no two lines of a color are neighbours. Both colors of a slab in one
+// go, since a slab is not beside another one of the same parity.
 template <typename Real>
 void RelaxLines(
   const StencilMatrix& a, const Real* b, Real* x, bool forward, const Execution& execution)
 {
-  for (int step = 0; step < 4; ++step)
+  for (int step = 0; step < 2; ++step)
   {
-    const int color = forward ? step : 3 - step;
+    const int parity = forward ? step : 1 - step;
     ForEachSlab(
-      a.Size, (a.Size[2] - color / 2 + 1) / 2, execution,
+      a.Size, (a.Size[2] - parity + 1) / 2, execution,
       [&](Index slab)
       {
-        const Index k = 2 * slab + color / 2;
-        for (Index j = color % 2; j < a.Size[1]; j += 2)
+        const Index k = 2 * slab + parity;
+        for (const Index first : { forward ? 0 : 1, forward ? 1 : 0 })
         {
-          RelaxLine(a, b, x, j + a.Size[1] * k, forward);
+          for (Index j = first; j < a.Size[1]; j += 2)
+          {
+            RelaxLine(a, b, x, j + a.Size[1] * k, forward);
+          }
         }
       },
       QuickNodes);
