@@ -4,9 +4,12 @@
 
 #include "LabelledImage.h"
 #include "SMPExecution.h"
+#include "SegmentSurface.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
@@ -17,6 +20,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace trivariate
@@ -102,5 +106,13 @@ void BoundaryToPolyData(const SegmentBoundary& boundary, const LabelledImage& im
   output->GetCellData()->AddArray(labels);
   output->GetPointData()->SetNormals(normals);
   output->GetPointData()->AddArray(junction);
+
+  vtkNew<vtkDoubleArray> spacing;
+  spacing->SetName(VoxelSpacingName);
+  spacing->SetNumberOfComponents(3);
+  const auto& m = image.IndexToPhysical;
+  spacing->InsertNextTuple3(
+    std::hypot(m[0], m[4], m[8]), std::hypot(m[1], m[5], m[9]), std::hypot(m[2], m[6], m[10]));
+  output->GetFieldData()->AddArray(spacing);
 }
 }

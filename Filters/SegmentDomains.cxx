@@ -196,9 +196,9 @@ std::string RemarkOn(const BlocksOfSegment& segment)
 DomainBlocks BlocksOf(
   const SegmentDomain& domain, const DomainSettings& settings, const Execution& execution)
 {
-  return settings.Layered
-           ? LayeredBlocks(domain, settings.LayerDepth * MeanEdge(domain.Layout), execution)
-           : CubeBlocks(domain);
+  const double voxel = settings.Voxel > 0.0 ? settings.Voxel : MeanEdge(domain.Layout);
+  return settings.Layered ? LayeredBlocks(domain, settings.LayerDepth * voxel, execution)
+                          : CubeBlocks(domain);
 }
 
 //------------------------------------------------------------------------------

@@ -40,7 +40,8 @@ struct DomainSettings
 {
   DomainOptions Options;
   bool Layered = true;
-  double LayerDepth = 0.0; ///< in mean edges of the surface; 0: automatic
+  double LayerDepth = 0.0; ///< in voxels; 0: automatic
+  double Voxel = 0.0;      ///< its size; 0: not known, a mean edge of the surface
 };
 
 /// The domain's blocks as the settings want them.

@@ -6,6 +6,7 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkFieldData.h"
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
@@ -15,6 +16,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <stdexcept>
 
@@ -68,6 +70,22 @@ SurfaceMesh MeshOf(
   }
   return SurfaceMesh(std::move(used), std::move(renumbered));
 }
+
+// 0 where it is not told, or is no size.
+double VoxelOf(vtkPolyData* input)
+{
+  vtkDataArray* spacing = input->GetFieldData()->GetArray(VoxelSpacingName);
+  if (!spacing || spacing->GetNumberOfComponents() != 3 || spacing->GetNumberOfTuples() != 1)
+  {
+    return 0.0;
+  }
+  double volume = 1.0;
+  for (int a = 0; a < 3; ++a)
+  {
+    volume *= std::max(0.0, spacing->GetComponent(0, a));
+  }
+  return std::isfinite(volume) ? std::cbrt(volume) : 0.0;
+}
 }
 
 //------------------------------------------------------------------------------
@@ -120,6 +138,7 @@ LabelledSurface ReadSurface(vtkPolyData* input)
   surface.Triangles = ReadTriangles(input);
   surface.Points = ReadPoints(input);
   surface.Labels.assign(surface.Triangles.size(), { 1, 0 });
+  surface.Voxel = VoxelOf(input);
   vtkDataArray* labels = LabelArray(input);
   for (std::size_t t = 0; labels && t < surface.Labels.size(); ++t)
   {
@@ -201,6 +220,7 @@ void GatherSurface(vtkPolyData* input, vtkPolyData* whole, vtkMultiProcessContro
   std::vector<vtkSmartPointer<vtkDataObject>> parts;
   controller->Gather(input, parts, 0);
   vtkNew<vtkAppendPolyData> append;
+  vtkNew<vtkFieldData> fields; // which appending leaves out
   int filled = 0;
   for (vtkDataObject* part : parts)
   {
@@ -208,6 +228,7 @@ void GatherSurface(vtkPolyData* input, vtkPolyData* whole, vtkMultiProcessContro
     if (surface && surface->GetNumberOfPoints() > 0)
     {
       append->AddInputData(surface);
+      fields->ShallowCopy(surface->GetFieldData());
       ++filled;
     }
   }
@@ -219,6 +240,7 @@ void GatherSurface(vtkPolyData* input, vtkPolyData* whole, vtkMultiProcessContro
   if (filled == 1)
   {
     whole->ShallowCopy(append->GetOutput());
+    whole->SetFieldData(fields);
     return;
   }
   vtkNew<vtkStaticCleanPolyData> merge;
@@ -226,5 +248,6 @@ void GatherSurface(vtkPolyData* input, vtkPolyData* whole, vtkMultiProcessContro
   merge->SetTolerance(SamePlace);
   merge->Update();
   whole->ShallowCopy(merge->GetOutput());
+  whole->SetFieldData(fields);
 }
 }

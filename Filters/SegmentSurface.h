@@ -15,11 +15,15 @@ class vtkPolyData;
 
 namespace trivariate
 {
+/// Field data of a surface made from voxels: their size along i, j and k.
+constexpr const char* VoxelSpacingName = "VoxelSpacing";
+
 struct LabelledSurface
 {
   std::vector<Eigen::Vector3d> Points;
   std::vector<Triangle> Triangles;
   std::vector<std::array<int, 2>> Labels; ///< of each triangle: its inner and its outer side
+  double Voxel = 0.0;                     ///< edge of a cube as large as a voxel; 0: not known
 };
 
 /// A connected part of the surface of one segment.

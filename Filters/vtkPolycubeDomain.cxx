@@ -280,6 +280,7 @@ void vtkPolycubeDomain::MakeDomains(
   settings.Options.Relax = this->RelaxBorders;
   settings.Layered = this->Layered;
   settings.LayerDepth = this->LayerDepth;
+  settings.Voxel = surface.Voxel;
   this->Internal->GuessFor(surface, chosen, settings.Options);
 
   DomainSet domains;

@@ -63,8 +63,8 @@
  *
  * @par Cost
  * Some seconds for each segment, 1 to 2 more for each 1e5 triangles, and 0.4 GB for each 1e5
- * triangles: surfaces of more than 40000 are searched on 20000 of them, and only the domain found is
- * laid out on all. The corners found are kept, so that corners picked from there take less.
+ * triangles: surfaces of more than 40000 are searched on 20000 of them, and only the domain found
+ * is laid out on all. The corners found are kept, so that corners picked from there take less.
  *
  * @par Distributed data
  * Under several processes the pieces are gathered to process 0 with a warning; it gives the same
@@ -229,8 +229,11 @@ public:
 
   ///@{
   /**
-   * How deep the blocks along the surface are, in mean edges of the surface's triangles, that is
-   * about voxels; never deeper than half of the way to the middle. Default is 0, which means 2.5.
+   * How deep the blocks along the surface are, in voxels: of the size that field data VoxelSpacing
+   * of the surface tells, as that of Segment Boundary does (the third root of their volume), or,
+   * without it, in mean edges of the surface's triangles. Graded: below each corner no deeper than
+   * half of the way to the middle, so less where the segment is thin, and less where a block would
+   * be inverted. Default is 0, automatic: 2.5 mean edges, so graded too.
    */
   vtkSetClampMacro(LayerDepth, double, 0.0, 1e6);
   vtkGetMacro(LayerDepth, double);

@@ -36,6 +36,7 @@
  *   over the chosen surfaces at the point weighted by angle; Junction (uint8), 0 inside a surface,
  *   1 on a curve where three or more segments (or two and the outside) meet, 2 where such curves
  *   end or meet.
+ * - field data: VoxelSpacing (double x 3), the size of the voxels along i, j and k.
  * The surface of one segment s is where one of the labels is s; turn those where it is the second.
  * Which segments are chosen changes neither points nor triangles, only which are there.
  *

@@ -4,6 +4,8 @@
 
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkSMPTools.h"
 
 #include <limits>
@@ -53,6 +55,53 @@ TEST(PolycubeDomain, FindsOneCubeWithALayer)
     }
     ExpectSound(domain, surface, { 1 });
   }
+}
+
+// How far the inner corners of one cube are from the middle, at most.
+double InnerRadius(vtkPolyData* surface, double depth)
+{
+  vtkNew<vtkPolycubeDomain> domain;
+  domain->SetInputData(surface);
+  domain->SetLayerDepth(depth);
+  domain->Update();
+  vtkPointSet* polycube = domain->GetPolycube();
+  vtkDataArray* ids = polycube->GetPointData()->GetArray("CornerId");
+  double most = 0.0;
+  for (vtkIdType p = 0; p < polycube->GetNumberOfPoints(); ++p)
+  {
+    most =
+      ids->GetComponent(p, 0) < 0 ? std::max(most, vtkMath::Norm(polycube->GetPoint(p))) : most;
+  }
+  return most;
+}
+
+// On a ball with a radius of 8 voxels.
+TEST(PolycubeDomain, MakesLayersAsDeepAsVoxelsTell)
+{
+  const vtkNew<vtkPolyData> ball = Ball();
+  const double* spacing = ball->GetFieldData()->GetArray("VoxelSpacing")->GetTuple3(0);
+  EXPECT_EQ(std::vector<double>(spacing, spacing + 3), (std::vector<double>{ 1.0, 1.0, 1.0 }));
+  const double radius = 7.8; // between voxels
+  for (const double depth : { 1.0, 2.0, 3.0 })
+  {
+    EXPECT_NEAR(radius - InnerRadius(ball, depth), depth, 0.3);
+  }
+  // Half of the way, where the ball is too small for so much.
+  EXPECT_GT(InnerRadius(ball, 20.0), 0.3 * radius);
+
+  vtkNew<vtkDoubleArray> half;
+  half->SetName("VoxelSpacing");
+  half->SetNumberOfComponents(3);
+  half->InsertNextTuple3(0.25, 0.5, 1.0);
+  ball->GetFieldData()->Initialize();
+  ball->GetFieldData()->AddArray(half);
+  EXPECT_NEAR(radius - InnerRadius(ball, 4.0), 2.0, 0.3);
+  // Without it in mean edges, as the automatic depth always is.
+  const double automatic = InnerRadius(ball, 0.0);
+  EXPECT_GT(std::abs(InnerRadius(ball, 2.5) - automatic), 0.5);
+  ball->GetFieldData()->Initialize();
+  EXPECT_NEAR(InnerRadius(ball, 2.5), automatic, 1e-9);
+  EXPECT_EQ(InnerRadius(ball, 0.0), automatic);
 }
 
 TEST(PolycubeDomain, TakesAnyClosedSurface)
