@@ -32,8 +32,10 @@ constexpr double Margin = 0.25;
 // takes from them.
 constexpr double TooFar = 0.35, MostOfFar = 0.5;
 
-// How often voxels that are still outside pull the surface over themselves.
-constexpr int Pulls = 4;
+// How often voxels that are still outside pull the surface over themselves, and the steps of each
+// pull. From voxels farther away, in voxels, cubes are missing: the surface would leave others.
+constexpr int Pulls = 4, PullSteps = 8;
+constexpr double FarthestPull = 2.0;
 
 // Steps of the shape with each barrier after a refinement; after the last one as many as it needs.
 constexpr int RoundSteps = 3;
@@ -160,12 +162,7 @@ private:
       const BezierMesh mesh(this->Result.Spline, this->Run);
       const FoundParameters found =
         FindParametersOnShape(this->Result.Spline, mesh, places, starts, this->Run);
-      std::vector<double> outside, feet;
-      for (const Index i : found.Outside)
-      {
-        outside.insert(outside.end(), &places[3 * i], &places[3 * i] + 3);
-        feet.insert(feet.end(), &found.Parameters[3 * i], &found.Parameters[3 * i] + 3);
-      }
+      auto [outside, feet] = OutsideWithin(FarthestPull * this->Options.Spacing, found, places);
       this->Lap("cover");
       if (outside.empty())
       {
@@ -175,7 +172,8 @@ private:
       ScatteredSystem system(target.Samples(), 0, this->Layout, this->Run);
       Stage stage{ system, 0, std::vector<double>(3, 1.0), 0.0, 0.0, 0, &target };
       this->Update(stage);
-      this->SlideToSurface(stage, true);
+      // The shape is the one that the last barrier left.
+      this->SlideToSurface(stage, ShapeSolverOptions().LastBarrier, PullSteps);
       this->Measure(stage);
       places = std::move(outside);
       starts = std::move(feet);
@@ -315,16 +313,19 @@ private:
     }
     if (slides)
     {
-      this->SlideToSurface(stage, tolerance == FinalTolerance);
+      const ShapeSolverOptions usual;
+      this->SlideToSurface(
+        stage, usual.FirstBarrier, tolerance == FinalTolerance ? usual.MostSteps : RoundSteps);
     }
   }
 
   // Refinement keeps the shape, so that only the coarsest net can have folds.
-  void SlideToSurface(Stage& stage, bool isLast)
+  void SlideToSurface(Stage& stage, double firstBarrier, int steps)
   {
     ShapeSolverOptions options;
+    options.FirstBarrier = firstBarrier;
     options.Spacing = this->Options.Spacing;
-    options.MostSteps = isLast ? options.MostSteps : RoundSteps;
+    options.MostSteps = steps;
     SolveShape(this->Result.Spline, stage.System, *stage.Target, options, this->Run);
     this->Lap("shape");
   }

@@ -82,6 +82,24 @@ FoundParameters FindParametersOnShape(const TSpline& spline, const BezierMesh& m
 }
 
 //------------------------------------------------------------------------------
+OutsidePlaces OutsideWithin(
+  double reach, const FoundParameters& found, const std::vector<double>& places)
+{
+  OutsidePlaces near;
+  for (std::size_t k = 0; k < found.Outside.size(); ++k)
+  {
+    if (found.Distances[k] <= reach)
+    {
+      const double *place = &places[3 * found.Outside[k]],
+                   *foot = &found.Parameters[3 * found.Outside[k]];
+      near.Places.insert(near.Places.end(), place, place + 3);
+      near.Feet.insert(near.Feet.end(), foot, foot + 3);
+    }
+  }
+  return near;
+}
+
+//------------------------------------------------------------------------------
 FoundParameters FindParametersOnSegments(const TSpline& spline, const BlockSpline& layout,
   const std::vector<double>& places, const std::vector<double>& parameters,
   const std::vector<double>& starts, const Execution& execution)

@@ -26,8 +26,17 @@ struct FoundParameters
 FoundParameters FindParametersOnShape(const TSpline& spline, const BezierMesh& mesh,
   const std::vector<double>& places, const std::vector<double>& starts, const Execution& execution);
 
-/// The same with each place in the blocks of its own segment, in one of which its parameter of
-/// `parameters` is; where these are empty, in any block. Outside and Distances go by segments.
+/// Places that were found outside, up to `reach` away, and the parameters of their nearest points.
+struct OutsidePlaces
+{
+  std::vector<double> Places, Feet;
+};
+OutsidePlaces OutsideWithin(
+  double reach, const FoundParameters& found, const std::vector<double>& places);
+
+/// FindParametersOnShape with each place in the blocks of its own segment, in one of which its
+/// parameter of `parameters` is; where these are empty, in any block. Outside and Distances go by
+/// segments.
 FoundParameters FindParametersOnSegments(const TSpline& spline, const BlockSpline& layout,
   const std::vector<double>& places, const std::vector<double>& parameters,
   const std::vector<double>& starts, const Execution& execution);

@@ -134,6 +134,30 @@ TEST(BlockFit, CoversVoxelsOutsideOfTheMeshes)
   EXPECT_LT(4 * (ball.Voxels.Count() - fit.VoxelsInside), 3 * outside);
 }
 
+// Voxels that the meshes leave out by far, a spike of 5 x 5 x 6 on a ball, do not pull the surface
+// off the ball.
+TEST(BlockFit, IsNotPulledFarAway)
+{
+  BallPhantom ball(24);
+  BlockSamples& voxels = ball.Voxels;
+  Index top = 0;
+  for (Index i = 0; i < voxels.Count(); ++i)
+  {
+    top = voxels.Places[3 * i + 2] > voxels.Places[3 * top + 2] ? i : top;
+  }
+  const std::vector<double> foot(&voxels.Parameters[3 * top], &voxels.Parameters[3 * top] + 3);
+  for (int n = 0; n < 150; ++n)
+  {
+    voxels.Parameters.insert(voxels.Parameters.end(), foot.begin(), foot.end());
+    const double place[3] = { n % 5 - 2.0, n / 5 % 5 - 2.0, ball.Map.Radius + 4.0 + n / 25 };
+    voxels.Places.insert(voxels.Places.end(), place, place + 3);
+    voxels.Values.push_back(0.8);
+  }
+  const BlockFitResult fit =
+    FitBlocks(ball.Map.Blocks, voxels, ball.Map.Nodes(12), Options(600), ThreadedExecution(2));
+  EXPECT_LT(fit.ShapeMaximum, 1.0);
+}
+
 // The core is another segment than the layers, with a density of its own: each side of the face
 // between them has what its voxels have, and their places there are the same to rounding.
 TEST(BlockFit, JumpsBetweenSegmentsWithoutAGap)
