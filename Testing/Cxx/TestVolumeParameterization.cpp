@@ -408,3 +408,32 @@ TEST(VolumeParameterization, SaysWhatIsWrong)
   chain.Parameters->SetInputData(still);
   expect("The frame of voxel");
 }
+
+//------------------------------------------------------------------------------
+// A ball with a fin of two voxels around it, which is thinner than cells need, and the ball alone.
+TEST(VolumeParameterization, WarnsOfThinParts)
+{
+  for (const bool finned : { true, false })
+  {
+    Chain chain(
+      BallExtent,
+      [finned](const double* p)
+      {
+        const double r = std::hypot(p[0], p[1]);
+        return std::hypot(r, p[2]) < 6.3 || (finned && r < 9.3 && p[2] > -1.5 && p[2] < 0.5) ? 1
+                                                                                             : 0;
+      },
+      true);
+    chain.Parameters->SetCellLength(3.0); // the voxels warn, not the cells
+    std::string warnings;
+    vtkNew<vtkCallbackCommand> collect;
+    collect->SetClientData(&warnings);
+    collect->SetCallback([](vtkObject*, unsigned long, void* all, void* text)
+      { *static_cast<std::string*>(all) += static_cast<const char*>(text); });
+    chain.Parameters->AddObserver(vtkCommand::WarningEvent, collect);
+    chain.Update();
+    const bool warned = warnings.find("parts thinner than four voxels") != std::string::npos;
+    EXPECT_EQ(warned, finned) << warnings;
+    EXPECT_GT(chain.Parameters->GetBlocks()->GetNumberOfPartitionedDataSets(), 0U);
+  }
+}
