@@ -62,7 +62,7 @@
  *   and on the right, seen from outside.
  *
  * @par Cost
- * Some seconds for each segment, 1 to 2 more for each 1e5 triangles, and 0.4 GB for each 1e5
+ * 5 to 25 s for each segment of 1e5 to 5e5 triangles, shells up to a minute, and 0.4 GB for each 1e5
  * triangles: surfaces of more than 40000 are searched on 20000 of them, and only the domain found
  * is laid out on all. The corners found are kept, so that corners picked from there take less.
  *

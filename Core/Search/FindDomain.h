@@ -41,8 +41,8 @@ struct DomainOptions
  * if wanted (RelaxedLayout.h).
  *
  * Throws std::invalid_argument for a surface of several pieces, std::runtime_error with the reasons
- * (and the place of a handle) where no domain can be laid out. O(n log n): a few seconds, and 1 s
- * for each 1e5 triangles.
+ * (and the place of a handle) where no domain can be laid out. O(n log n): 5 to 25 s
+ * for 1e5 to 5e5 triangles.
  */
 SegmentDomain FindDomain(
   const SurfaceMesh& mesh, const DomainOptions& options, const Execution& execution);
