@@ -63,7 +63,7 @@
  *
  * @par Cost
  * 5 to 25 s for each segment of 1e5 to 5e5 triangles, shells up to a minute, and 0.4 GB for each 1e5
- * triangles: surfaces of more than 40000 are searched on 20000 of them, and only the domain found
+ * triangles: surfaces of more than 200000 are searched on 20000 of them, and only the domain found
  * is laid out on all. The corners found are kept, so that corners picked from there take less.
  *
  * @par Distributed data

@@ -83,7 +83,7 @@ SurfaceLayout LayoutFromCorners(const SurfaceMesh& mesh, const Polycube& polycub
   double farthest = std::numeric_limits<double>::infinity(),
   const std::vector<GivenBorder>& given = {});
 
-/// Surfaces with more triangles are not searched as they are.
+/// Surfaces with more triangles are not laid out as they are.
 constexpr Index ManyTriangles = 40000;
 
 /**

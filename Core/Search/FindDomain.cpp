@@ -73,7 +73,7 @@ SegmentDomain FindDomain(
     throw std::invalid_argument(
       "The surface has " + std::to_string(pieces) + " pieces; a domain is for one.");
   }
-  if (mesh.NumberOfTriangles() > ManyTriangles)
+  if (mesh.NumberOfTriangles() > options.MostTriangles)
   {
     return FindOnFew(mesh, options, execution);
   }

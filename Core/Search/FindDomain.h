@@ -21,6 +21,9 @@ struct DomainOptions
   /// Whether borders go to where the map onto the cubes stretches the surface least
   /// (RelaxedLayout.h), also where that aligns them less.
   bool Relax = false;
+  /// Surfaces with more triangles are searched on a copy with few. What is found may be another one
+  /// of those that are about as good.
+  Index MostTriangles = 200000;
 };
 
 /**
@@ -36,8 +39,8 @@ struct DomainOptions
  * Candidates are found and judged on a surface of few triangles; a cube whose charts it does not
  * have, on the surface itself. Only the best is laid out there; a cube from charts is judged again,
  * for charts of the surface itself can be quite others. A surface with too few triangles is
- * cut finer. A surface of more than ManyTriangles is reduced to 20000 first, the domain found there
- * and its borders led along on the surface itself (LayoutAlong). Borders of the best one are relaxed
+ * cut finer. A surface of more than MostTriangles is reduced to 20000 first, the domain found
+ * there and its borders led along on the surface itself (LayoutAlong). Borders of the best one are relaxed
  * if wanted (RelaxedLayout.h).
  *
  * Throws std::invalid_argument for a surface of several pieces, std::runtime_error with the reasons
