@@ -40,8 +40,8 @@ struct DomainOptions
  * have, on the surface itself. Only the best is laid out there; a cube from charts is judged again,
  * for charts of the surface itself can be quite others. A surface with too few triangles is
  * cut finer. A surface of more than MostTriangles is reduced to 20000 first, the domain found
- * there and its borders led along on the surface itself (LayoutAlong). Borders of the best one are relaxed
- * if wanted (RelaxedLayout.h).
+ * there and its borders led along on the surface itself (LayoutAlong). Borders of the best one are
+ * relaxed if wanted (RelaxedLayout.h).
  *
  * Throws std::invalid_argument for a surface of several pieces, std::runtime_error with the reasons
  * (and the place of a handle) where no domain can be laid out. O(n log n): 5 to 25 s
