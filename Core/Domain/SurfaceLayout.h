@@ -83,8 +83,8 @@ SurfaceLayout LayoutFromCorners(const SurfaceMesh& mesh, const Polycube& polycub
   double farthest = std::numeric_limits<double>::infinity(),
   const std::vector<GivenBorder>& given = {});
 
-/// Surfaces with more triangles are not laid out as they are.
-constexpr Index ManyTriangles = 40000;
+/// Surfaces with more triangles are not searched and not laid out as they are.
+constexpr Index ManyTriangles = 200000;
 
 /**
  * A layout of a reduced surface taken to the surface itself: paths between points that both have

@@ -23,7 +23,7 @@ struct DomainOptions
   bool Relax = false;
   /// Surfaces with more triangles are searched on a copy with few. What is found may be another one
   /// of those that are about as good.
-  Index MostTriangles = 200000;
+  Index MostTriangles = ManyTriangles;
 };
 
 /**
