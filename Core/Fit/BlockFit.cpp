@@ -28,9 +28,9 @@ constexpr int FinalIterations = 400;
 constexpr double Margin = 0.25;
 
 // A shape that is farther from its surface than this, in voxels, may have more points than its
-// share, up to this part of all: what attributes gain by points of their own is less than what it
-// takes from them.
-constexpr double TooFar = 0.35, MostOfFar = 0.5;
+// share, up to half of all and so many: it takes more from few attributes than points of their own.
+constexpr double TooFar = 0.35;
+constexpr Index MostFar = 1000;
 
 // How often voxels that are still outside pull the surface over themselves, and the steps of each
 // pull. From voxels farther away, in voxels, cubes are missing: the surface would leave others.
@@ -382,7 +382,7 @@ private:
   {
     const bool isFar = stage.Target && stage.Target->Slides() &&
                        this->Result.Rounds.back().Rms > TooFar * this->Options.Spacing;
-    const auto ofFar = static_cast<Index>(MostOfFar * this->Options.MaximumControlPoints);
+    const Index ofFar = std::min(MostFar, this->Options.MaximumControlPoints / 2);
     return isFar ? std::max(stage.MaximumPoints, ofFar) : stage.MaximumPoints;
   }
 
