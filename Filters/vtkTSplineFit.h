@@ -182,7 +182,7 @@ public:
   ///@{
   /**
    * Over a domain, refinement of the shape takes at most this share of the control points, and up
-   * to half of them, but not more than 1000, as long as it is farther than 0.35 voxels from its
+   * to half of them, but not more than 2000, as long as it is farther than 0.35 voxels from its
    * surface (root mean square): there it gains more than the arrays lose. Valid range [0, 1].
    * Default is a quarter: then X, Y, Z are up to three sevenths of the numbers of the spline.
    */

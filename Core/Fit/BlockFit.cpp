@@ -30,7 +30,7 @@ constexpr double Margin = 0.25;
 // A shape that is farther from its surface than this, in voxels, may have more points than its
 // share, up to half of all and so many: it takes more from few attributes than points of their own.
 constexpr double TooFar = 0.35;
-constexpr Index MostFar = 1000;
+constexpr Index MostFar = 2000;
 
 // How often voxels that are still outside pull the surface over themselves, and the steps of each
 // pull. From voxels farther away, in voxels, cubes are missing: the surface would leave others.

@@ -66,7 +66,7 @@ struct BlockFitOptions
   double MaximumErrorTolerance = 0.0;
   /// The shape is refined until the root mean square distance from where the surface is wanted is
   /// at most this, in the unit of the places, or it has MaximumShapePoints control points; as long
-  /// as it is more than 0.35 Spacing, up to half of all and 1000.
+  /// as it is more than 0.35 Spacing, up to half of all and 2000.
   double ShapeTolerance = 0.1;
   Index MaximumShapePoints = 2000;
   double Spacing = 1.0;  ///< distance of voxels in the unit of the places
