@@ -56,7 +56,7 @@ public:
   }
 
   void Patches(vtkPolyData* output) const;
-  void Polycubes(const std::vector<Eigen::Vector3d>& picked, vtkUnstructuredGrid* output) const;
+  void Polycubes(const PickedCorners& picked, vtkUnstructuredGrid* output) const;
   void Borders(vtkPolyData* output) const;
 
 private:
@@ -227,8 +227,7 @@ void Writer::Patches(vtkPolyData* output) const
 }
 
 //------------------------------------------------------------------------------
-void Writer::Polycubes(
-  const std::vector<Eigen::Vector3d>& picked, vtkUnstructuredGrid* output) const
+void Writer::Polycubes(const PickedCorners& picked, vtkUnstructuredGrid* output) const
 {
   const vtkNew<vtkPoints> points = DoublePoints();
   const auto coordinates = Named<vtkIntArray>("DomainCoordinates", 3);
@@ -250,6 +249,8 @@ void Writer::Polycubes(
       corners.insert(corners.end(), inner.begin(), inner.end());
     }
     corners.resize(segment.Blocks.Places.size(), -1);
+    const auto own = picked.find(segment.Segment);
+    const auto& wanted = own == picked.end() ? std::vector<Eigen::Vector3d>() : own->second;
     std::vector<vtkIdType> ids;
     for (std::size_t p = 0; p < segment.Blocks.Places.size(); ++p)
     {
@@ -263,7 +264,7 @@ void Writer::Polycubes(
       ids.push_back(points->InsertNextPoint(place.data()));
       coordinates->InsertNextTypedTuple(segment.Blocks.Coordinates[p].data());
       cornerId->InsertNextValue(corner);
-      snapped->InsertNextValue(p < picked.size() ? (picked[p] - place).norm() : 0.0);
+      snapped->InsertNextValue(p < wanted.size() ? (wanted[p] - place).norm() : 0.0);
       if (corner >= 0)
       {
         pointOfCorner[corner] = ids.back();
@@ -290,7 +291,8 @@ void Writer::Polycubes(
   output->SetPoints(points);
   output->GetPointData()->AddArray(coordinates);
   output->GetPointData()->AddArray(cornerId);
-  if (!picked.empty())
+  if (std::any_of(
+        picked.begin(), picked.end(), [](const auto& own) { return !own.second.empty(); }))
   {
     output->GetPointData()->AddArray(snapped);
   }
@@ -341,7 +343,7 @@ void Writer::Borders(vtkPolyData* output) const
 
 //------------------------------------------------------------------------------
 void WriteDomains(const LabelledSurface& surface, const DomainSet& domains,
-  const std::vector<Eigen::Vector3d>& picked, vtkPolyData* patches, vtkUnstructuredGrid* polycubes,
+  const PickedCorners& picked, vtkPolyData* patches, vtkUnstructuredGrid* polycubes,
   vtkPolyData* borders)
 {
   const Writer writer(surface, domains);

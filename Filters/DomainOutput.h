@@ -4,7 +4,7 @@
 #ifndef DomainOutput_h
 #define DomainOutput_h
 
-#include "SegmentDomains.h"
+#include "PickedCorners.h"
 
 class vtkPolyData;
 class vtkUnstructuredGrid;
@@ -14,10 +14,10 @@ namespace trivariate
 /**
  * The three outputs of vtkPolycubeDomain. Numbers of corners and patches count through all
  * surfaces, in order of the segments; what two segments share has one number. `picked`: the places
- * that were asked for, of the only segment's corners; none: SnapDistance is left out.
+ * that were asked for, of some segments' corners; none: SnapDistance is left out.
  */
 void WriteDomains(const LabelledSurface& surface, const DomainSet& domains,
-  const std::vector<Eigen::Vector3d>& picked, vtkPolyData* patches, vtkUnstructuredGrid* polycubes,
+  const PickedCorners& picked, vtkPolyData* patches, vtkUnstructuredGrid* polycubes,
   vtkPolyData* borders);
 }
 

@@ -6,6 +6,7 @@
 #include "DomainOutput.h"
 #include "FilterRun.h"
 #include "ListProperty.h"
+#include "PickedCorners.h"
 #include "SMPExecution.h"
 #include "SegmentDomains.h"
 #include "SegmentSurface.h"
@@ -17,6 +18,7 @@
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -249,6 +251,7 @@ int vtkPolycubeDomain::RequestData(
       if (points)
       {
         corners->SetPoints(points->GetPoints());
+        corners->GetPointData()->AddArray(points->GetPointData()->GetArray(CornerSegmentName));
       }
       if (gathering)
       {
@@ -284,7 +287,7 @@ void vtkPolycubeDomain::MakeDomains(
   this->Internal->GuessFor(surface, chosen, settings.Options);
 
   DomainSet domains;
-  std::vector<Eigen::Vector3d> picked;
+  PickedCorners picked;
   if (this->Mode == AUTOMATIC)
   {
     domains = FindDomains(surface, chosen, settings, SMPExecution(this));
@@ -293,6 +296,17 @@ void vtkPolycubeDomain::MakeDomains(
       this->Internal->Guess->SetAutomatic(domains.Surfaces[0].Domain);
     }
   }
+  else if (chosen.size() != 1 && HaveSegments(corners))
+  {
+    picked = CornersBySegment(corners, chosen);
+    const auto shapeOf = [&](const SurfaceMesh& mesh, const Execution& execution)
+    {
+      return CornerGuess(mesh, settings.Options)
+        .Shape(this->NumberOfCubes, this->SwitchedOffCubes, execution);
+    };
+    domains = DomainsFromCorners(
+      surface, chosen, picked, shapeOf, this->SnapLimit, settings, SMPExecution(this));
+  }
   else if (chosen.size() != 1)
   {
     std::string labels;
@@ -300,17 +314,22 @@ void vtkPolycubeDomain::MakeDomains(
     {
       labels += (labels.empty() ? "" : ", ") + std::to_string(segment);
     }
-    throw std::invalid_argument("Corners are picked for one segment; of " + labels +
-                                " enter one as Segments, apply the automatic mode, then pick.");
+    throw std::invalid_argument(
+      "Corners are picked for one segment; of " + labels +
+      " enter one as Segments, apply the automatic mode, then pick. Points "
+      "of a second input may be for several: their array Segment says "
+      "whose each is.");
   }
   else
   {
     try
     {
-      picked = corners                                   ? ReadPoints(corners)
-               : this->GetNumberOfCornerPositions() == 1 ? std::vector<Eigen::Vector3d>()
-                                                         : PointsOf(this->CornerPositions);
-      domains = this->Internal->ByHand(surface, chosen[0], settings, this, picked);
+      std::vector<Eigen::Vector3d>& own = picked[chosen[0]];
+      own = HaveSegments(corners)                     ? CornersBySegment(corners, chosen)[chosen[0]]
+            : corners                                 ? ReadPoints(corners)
+            : this->GetNumberOfCornerPositions() == 1 ? std::vector<Eigen::Vector3d>()
+                                                      : PointsOf(this->CornerPositions);
+      domains = this->Internal->ByHand(surface, chosen[0], settings, this, own);
     }
     catch (const std::invalid_argument& error)
     {

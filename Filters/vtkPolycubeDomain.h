@@ -24,7 +24,11 @@
  * shape has a point near the surface, to which it is moved. Corners are those lattice points of the
  * shape that lie on its boundary, in order of w, then v, then u: of one cube (0, 0, 0), (1, 0, 0),
  * (0, 1, 0), (1, 1, 0), (0, 0, 1), ... Their points come from the second input or from
- * CornerPositions; where there are none, from the corners that were found automatically.
+ * CornerPositions; where there are none, from the corners that were found automatically. Points of
+ * the second input may be for several segments: their point array Segment says whose each is, and
+ * the order counts within each segment. All of these have the one shape, or each its automatic one.
+ * Segments without corners get their automatic domain. Those with corners share nothing with the
+ * segments that they touch; a warning names them.
  *
  * Layered, the default: every patch gets a block of its own along the surface, around cubes with
  * corners inside: 8 + 8 corners and 7 blocks for one cube. A smooth surface is not forced into a
@@ -34,7 +38,7 @@
  * Port 0: vtkPolyData with triangles, a closed surface of each segment. The cell array
  * BoundaryLabels (2 components, see vtkSegmentBoundary) says which triangles are whose; without it
  * all is the surface of segment 1. Port 1 (optional): vtkPointSet, the points of the corners in
- * manual mode.
+ * manual mode, with the point array Segment (one component) where they are for several segments.
  *
  * @par Output
  * Port 0, patches: vtkPolyData, for each segment the triangles of its surface, cut along the
@@ -51,7 +55,7 @@
  * Port 1, polycube: vtkUnstructuredGrid with a hexahedron for each block.
  * - points: DomainCoordinates (int32 x 3), where the corner lies in the integer polycube (an inner
  *   corner: as the one above it); CornerId (int32), -1 for points inside; SnapDistance (double, if
- *   corners were given), how far each was moved.
+ *   corners were given), how far each was moved, 0 where none was given.
  * - cells: Segment; Block (int32), the group of cubes that shares one (u, v, w) grid: all of a
  *   segment, or each by itself where there are layers; Patch (int32), on which the block stands, or
  *   -1; Alignment (double), of the segment: the mean over its surface of the cosine between the
@@ -72,9 +76,9 @@
  *
  * @par Errors
  * A surface that is empty, not of triangles, open or not two-manifold; a segment that is not there;
- * in manual mode corners fewer or more than the shape has, two at one place, farther than SnapLimit
- * from the surface, mirrored. Where some of several segments get no domain, a warning says why;
- * where none gets one, an error does.
+ * in manual mode a corner of a segment that gets no domain, corners fewer or more than the shape
+ * has, two at one place, farther than SnapLimit from the surface, mirrored. Where some of several
+ * segments get no domain, a warning says why; where none gets one, an error does.
  *
  * @sa vtkSegmentBoundary vtkSegmentTopology
  */
