@@ -40,3 +40,24 @@ domain.CornerPositions = start
 domain.UpdatePipeline()
 print("corners to start from:", len(start) // 3)
 assert OutputPort(domain, 0).GetDataInformation().GetNumberOfCells() > 0
+
+# Corners of one of two segments, in a second input whose array Segment says whose they are; the
+# other segment gets the domain that is found.
+pair = Calculator(
+    Input=block, ResultArrayName="Segment",
+    Function="if(abs(coordsX) > 2.2 & abs(coordsX) < 12.2 & abs(coordsY) < 6.2"
+             " & abs(coordsZ) < 6.2, if(coordsX < 0, 1, 2), 0)")
+picked = ProgrammableSource(OutputDataSetType="vtkPolyData", Script="""
+import numpy
+points = vtk.vtkPoints()
+for z in (-6.5, 6.5):
+    for y in (-6.5, 6.5):
+        for x in (-12.5, -2.5):
+            points.InsertNextPoint(x, y, z)
+output.SetPoints(points)
+output.PointData.append(numpy.ones(8, dtype=numpy.int32), "Segment")
+""")
+of_pair = PolycubeDomain(Input=SegmentBoundary(Input=pair, UseDensity=0), Corners=picked,
+                         Mode="Manual", NumberOfCubes=[1, 1, 1])
+of_pair.UpdatePipeline()
+assert OutputPort(of_pair, 1).CellData["Segment"].GetRange() == (1, 2)
