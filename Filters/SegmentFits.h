@@ -44,7 +44,8 @@ struct SegmentFits
  * misses too many voxels. The best one by the round trip is kept, or where they are not compared
  * that over the cubes if it misses few voxels; `why` says for each label with a domain why it is
  * the box. Where they are compared, a fit over cubes begins with a trial with an eighth of the
- * control points, and ends with it if the box was more accurate with so many. Voxels that the spline over a domain misses get the lowest label.
+ * control points, and ends with it if the box was more accurate with so many. Voxels that the
+ * spline over a domain misses get the lowest label.
  *
  * Control points are shared out by PointShares; what a segment leaves when it meets the tolerance
  * goes to those after it, those with small shares first. The rounds of all fits go to the table,

@@ -66,9 +66,10 @@
  *   and on the right, seen from outside.
  *
  * @par Cost
- * 5 to 25 s for each segment of 1e5 to 5e5 triangles, shells up to a minute, and 0.4 GB for each 1e5
- * triangles: surfaces of more than 200000 are searched on 20000 of them, and only the domain found
- * is laid out on all. The corners found are kept, so that corners picked from there take less.
+ * 5 to 25 s for each segment of 1e5 to 5e5 triangles, shells up to a minute, and 0.4 GB for each
+ * 1e5 triangles: surfaces of more than 200000 are searched on 20000 of them, and only the domain
+ * found is laid out on all. The corners found are kept, so that corners picked from there take
+ * less.
  *
  * @par Distributed data
  * Under several processes the pieces are gathered to process 0 with a warning; it gives the same

@@ -5,9 +5,9 @@
 #include "Domain/DomainLayers.h"
 #include "Domain/InnerCorners.h"
 #include "Domain/InnerPath.h"
+#include "Domain/SurfaceReduction.h"
 #include "Domain/TriangleTree.h"
 #include "Parameter/CoarseHexahedra.h"
-#include "Domain/SurfaceReduction.h"
 
 #include <Eigen/LU>
 

@@ -5,6 +5,7 @@
 #define trivariate_LayoutSurfaces_h
 
 #include "Domain/Polycube.h"
+#include "Domain/SurfaceLayout.h"
 #include "Domain/SurfaceMesh.h"
 
 #include <cmath>
@@ -18,6 +19,30 @@ using trivariate::Polycube;
 using trivariate::SurfaceMesh;
 using trivariate::Triangle;
 using Point = Eigen::Vector3d;
+
+/// Where the corners of a polycube are on the lattice.
+inline std::vector<Point> LatticeCorners(const Polycube& polycube)
+{
+  std::vector<Point> corners;
+  for (Index i = 0; i < polycube.NumberOfCorners; ++i)
+  {
+    const trivariate::LatticePoint& p = polycube.Points[i];
+    corners.push_back({ double(p[0]), double(p[1]), double(p[2]) });
+  }
+  return corners;
+}
+
+/// Along the border.
+inline double LengthOf(
+  const trivariate::SurfaceLayout& layout, const trivariate::LayoutBorder& border)
+{
+  double length = 0.0;
+  for (std::size_t i = 0; i + 1 < border.Points.size(); ++i)
+  {
+    length += (layout.Points[border.Points[i + 1]] - layout.Points[border.Points[i]]).norm();
+  }
+  return length;
+}
 
 /// The boundary of a polycube, each unit face cut into n x n squares and each of these in two.
 inline SurfaceMesh SurfaceOf(const Polycube& polycube, int n)

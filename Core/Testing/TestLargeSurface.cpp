@@ -18,6 +18,8 @@ namespace
 using namespace trivariate;
 using Eigen::Vector3d;
 using trivariate_testing::Icosphere;
+using trivariate_testing::LatticeCorners;
+using trivariate_testing::LengthOf;
 using trivariate_testing::SurfaceOf;
 
 DomainOptions OnFewTriangles()
@@ -25,27 +27,6 @@ DomainOptions OnFewTriangles()
   DomainOptions options;
   options.MostTriangles = 40000;
   return options;
-}
-
-std::vector<Vector3d> LatticeCorners(const Polycube& polycube)
-{
-  std::vector<Vector3d> corners;
-  for (Index i = 0; i < polycube.NumberOfCorners; ++i)
-  {
-    const LatticePoint& p = polycube.Points[i];
-    corners.push_back({ double(p[0]), double(p[1]), double(p[2]) });
-  }
-  return corners;
-}
-
-double LengthOf(const SurfaceLayout& layout, const LayoutBorder& border)
-{
-  double length = 0.0;
-  for (std::size_t i = 0; i + 1 < border.Points.size(); ++i)
-  {
-    length += (layout.Points[border.Points[i + 1]] - layout.Points[border.Points[i]]).norm();
-  }
-  return length;
 }
 
 TEST(LargeSurface, HasTheDomainOfASmallOne)

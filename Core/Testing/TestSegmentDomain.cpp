@@ -19,6 +19,7 @@ using namespace trivariate;
 using Eigen::Vector3d;
 using trivariate_testing::BoundaryOf;
 using trivariate_testing::Icosphere;
+using trivariate_testing::LatticeCorners;
 using trivariate_testing::Moved;
 using trivariate_testing::RoundedSurfaceOf;
 using trivariate_testing::Shuffled;
@@ -48,17 +49,6 @@ std::vector<double> SortedPatchAreas(const SurfaceLayout& layout)
   }
   std::sort(areas.begin(), areas.end());
   return areas;
-}
-
-std::vector<Vector3d> LatticeCorners(const Polycube& polycube)
-{
-  std::vector<Vector3d> corners;
-  for (Index i = 0; i < polycube.NumberOfCorners; ++i)
-  {
-    const LatticePoint& p = polycube.Points[i];
-    corners.push_back({ double(p[0]), double(p[1]), double(p[2]) });
-  }
-  return corners;
 }
 
 // A square bar along w as a round one of radius 1 about (0, 0).

@@ -18,27 +18,6 @@ namespace
 using namespace trivariate;
 using namespace trivariate_testing;
 
-std::vector<Point> LatticeCorners(const Polycube& polycube)
-{
-  std::vector<Point> corners;
-  for (Index i = 0; i < polycube.NumberOfCorners; ++i)
-  {
-    const LatticePoint& p = polycube.Points[i];
-    corners.push_back({ double(p[0]), double(p[1]), double(p[2]) });
-  }
-  return corners;
-}
-
-double LengthOf(const SurfaceLayout& layout, const LayoutBorder& border)
-{
-  double length = 0.0;
-  for (std::size_t i = 0; i + 1 < border.Points.size(); ++i)
-  {
-    length += (layout.Points[border.Points[i + 1]] - layout.Points[border.Points[i]]).norm();
-  }
-  return length;
-}
-
 std::vector<double> PatchAreas(const SurfaceLayout& layout)
 {
   const SurfaceMesh mesh(layout.Points, layout.Triangles);
