@@ -33,6 +33,7 @@ FittedPart RunFit(vtkTSplineFit* fit, const char* mask, const std::string& step,
   }
   fit->SetMaximumNumberOfControlPoints(options.MaximumControlPoints);
   fit->SetRMSTolerance(options.RmsTolerance);
+  fit->SetLargestShapeDistance(options.LargestShapeDistance);
   ChainStep(fit, chain, from, to, step).Run();
   FittedPart part;
   part.Model = TSplineFromGrid(fit->GetOutput());

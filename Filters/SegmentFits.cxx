@@ -35,13 +35,18 @@ constexpr double ShareOfTrial = 0.2;   // of the fits over a domain: one with fe
 // over a box.
 constexpr double TrialPart = 0.125, MostOfTrial = 0.5;
 
+// A trial also ends where its shape stays farther away than this, in voxels; those of fits that are
+// worth their time come to 0.4 or less.
+constexpr double MostTrialDistance = 0.6;
+
 // Segments that are to be fitted at once: one, or several with common faces.
 using Unit = PartNumbers;
 
 struct Limits
 {
   int ControlPoints;
-  double From, To; // of the progress
+  double From, To;            // of the progress
+  double ShapeDistance = 0.0; // in voxels, the most; 0: any
 };
 
 //------------------------------------------------------------------------------
@@ -180,8 +185,9 @@ DomainFit SegmentFitter::FitCubes(
   const Unit& unit, const FilledDomains& domains, const Limits& limits) const
 {
   const Part whole = UniteParts(this->Segmented.Parts, unit);
-  return FitOverDomain(this->Segmented, unit, domains,
-    this->OptionsFor(whole, limits.ControlPoints), this->Outer, limits.From, limits.To);
+  SegmentFitOptions own = this->OptionsFor(whole, limits.ControlPoints);
+  own.LargestShapeDistance = limits.ShapeDistance;
+  return FitOverDomain(this->Segmented, unit, domains, own, this->Outer, limits.From, limits.To);
 }
 
 //------------------------------------------------------------------------------
@@ -219,7 +225,8 @@ std::string SegmentFitter::TryCubes(
   {
     return "";
   }
-  const DomainFit trial = this->FitCubes(unit, domains, { static_cast<int>(few), from, to });
+  const DomainFit trial =
+    this->FitCubes(unit, domains, { static_cast<int>(few), from, to, MostTrialDistance });
   if (trial.Why.empty() && trial.Error >= this->BoxError(unit, few / all))
   {
     return "boxes are more accurate with " + std::to_string(static_cast<int>(few)) +
@@ -308,13 +315,11 @@ void SegmentFitter::FitUnit(
     {
       return;
     }
-    std::string labels;
-    for (const std::int32_t number : unit)
+    std::string labels = std::to_string(this->Segmented.Parts[unit.front()].Label);
+    for (std::size_t n = 1; n < unit.size(); ++n)
     {
-      labels += (labels.empty()           ? ""
-                  : number == unit.back() ? " and "
-                                          : ", ") +
-                std::to_string(this->Segmented.Parts[number].Label);
+      labels += n + 1 == unit.size() ? " and " : ", ";
+      labels += std::to_string(this->Segmented.Parts[unit[n]].Label);
     }
     this->Warnings.push_back(
       "Segments " + labels + " are not fitted together over common faces: " + why);

@@ -26,6 +26,7 @@ struct SegmentFitOptions
   int MaximumControlPoints = 0;     ///< of all segments together
   double RmsTolerance = 0.0;        ///< percent of the array's range over the whole image; 0: none
   std::vector<FilledDomains> Domains; ///< of cubes; several of a segment are compared
+  double LargestShapeDistance = 0.0;  ///< as in vtkTSplineFit
   bool Compared = true; ///< whether a fit over a domain must be better than that over the box
 };
 
@@ -44,8 +45,8 @@ struct SegmentFits
  * misses too many voxels. The best one by the round trip is kept, or where they are not compared
  * that over the cubes if it misses few voxels; `why` says for each label with a domain why it is
  * the box. Where they are compared, a fit over cubes begins with a trial with an eighth of the
- * control points, and ends with it if the box was more accurate with so many. Voxels that the
- * spline over a domain misses get the lowest label.
+ * control points, and ends with it if its shape stays away from its surface or the box was more
+ * accurate with so many. Voxels that the spline over a domain misses get the lowest label.
  *
  * Control points are shared out by PointShares; what a segment leaves when it meets the tolerance
  * goes to those after it, those with small shares first. The rounds of all fits go to the table,

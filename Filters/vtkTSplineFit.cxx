@@ -92,7 +92,7 @@ void ReportShape(const BlockFitResult& result, Index voxels, double spacing, vtk
   AddNumbers<vtkIdTypeArray>(
     field, "VoxelsInside", { number(result.VoxelsInside), number(voxels) });
   AddNumbers<vtkIdTypeArray>(field, "VoxelsNear", { number(result.VoxelsNear) });
-  AddNumbers<vtkDoubleArray>(field, "SmallestJacobian", { result.SmallestJacobian });
+  AddNumbers<vtkDoubleArray>(field, "SmallestJacobian", { result.Folds.SmallestJacobian });
   vtkNew<vtkIntArray> segments;
   segments->SetName("FittedSegment");
   vtkNew<vtkDoubleArray> errors;
@@ -106,7 +106,7 @@ void ReportShape(const BlockFitResult& result, Index voxels, double spacing, vtk
   field->AddArray(errors);
   AddNumbers<vtkDoubleArray>(field, "GradientJump", { result.Jump.Rms, result.Jump.Maximum });
   AddNumbers<vtkIdTypeArray>(field, "ShapeCells",
-    { number(result.ShapeCells), number(result.FoldedCells), number(result.CertifiedCells) });
+    { number(result.Folds.Cells), number(result.Folds.Folded), number(result.Folds.Certified) });
 }
 
 //------------------------------------------------------------------------------
@@ -237,10 +237,11 @@ void vtkTSplineFit::FitDomain(ImageSamples& samples, vtkInformationVector** inpu
   options.ShapeTolerance = this->ShapeTolerance * options.Spacing;
   options.MaximumShapePoints =
     static_cast<Index>(this->ShapeShare * this->MaximumNumberOfControlPoints);
+  options.LargestShapeDistance = this->LargestShapeDistance * options.Spacing;
   BlockFitResult result = FitBlocks(blocks, voxels, shape, options, SMPExecution(this));
-  if (result.FoldedCells > 0)
+  if (result.Folds.Folded > 0)
   {
-    vtkWarningMacro("The shape folds in " << result.FoldedCells << " of " << result.ShapeCells
+    vtkWarningMacro("The shape folds in " << result.Folds.Folded << " of " << result.Folds.Cells
                                           << " cells; allow more control points, or improve the "
                                              "parameterization there.");
   }
@@ -329,6 +330,7 @@ void vtkTSplineFit::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "LinearlyIndependent: " << this->LinearlyIndependent << "\n";
   os << indent << "ShapeTolerance: " << this->ShapeTolerance << "\n";
   os << indent << "ShapeShare: " << this->ShapeShare << "\n";
+  os << indent << "LargestShapeDistance: " << this->LargestShapeDistance << "\n";
   os << indent << "Attributes:";
   for (const std::string& name : this->Attributes)
   {

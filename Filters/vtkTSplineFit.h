@@ -192,6 +192,16 @@ public:
 
   ///@{
   /**
+   * Over a domain, a shape that is farther than this many voxels from its surface (root mean
+   * square) when its control points are used up is refused with an error, before the steps that
+   * take most of the time. Valid range [0, 100]. Default is 0: none is refused.
+   */
+  vtkSetClampMacro(LargestShapeDistance, double, 0.0, 100.0);
+  vtkGetMacro(LargestShapeDistance, double);
+  ///@}
+
+  ///@{
+  /**
    * Names of further point arrays that are fitted beside the chosen one. Default is none; naming
    * the chosen one again changes nothing.
    */
@@ -245,6 +255,7 @@ private:
   bool LinearlyIndependent = true;
   double ShapeTolerance = 0.1;
   double ShapeShare = 0.25;
+  double LargestShapeDistance = 0.0;
   std::vector<std::string> Attributes;
   std::string MaskArray = "None";
   vtkMultiProcessController* Controller = nullptr;

@@ -4,17 +4,18 @@
 
 #include "BlockFitInput.h"
 #include "DataFollow.h"
+#include "FitStage.h"
 #include "FitSteps.h"
 #include "RefinementHistory.h"
 #include "RefinementMarks.h"
 #include "SegmentErrors.h"
 #include "ShapeInverse.h"
-#include "ShapeJacobian.h"
 #include "ShapeSolver.h"
 #include "ShapeTarget.h"
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 
 namespace trivariate
@@ -49,19 +50,7 @@ constexpr float Stiffness = 2e-6f;
 // (see DataErrors.h), more where the error has not fallen.
 constexpr int MostFollows = 10, MostVain = 3;
 constexpr double LeastGain = 0.01;
-constexpr double FollowBarrier = 0.03, FollowLowering = 0.5;
-constexpr double FollowDamping = 4e-4;
-
-// One stage: some components are fitted to some samples, and the spline is refined for them.
-struct Stage
-{
-  ScatteredSystem& System;
-  int FirstComponent;
-  std::vector<double> Scales; // of each component: the unit of its error
-  double RmsTolerance, MaximumTolerance;
-  Index MaximumPoints;
-  ShapeTarget* Target; // null: a stage of attributes
-};
+constexpr double FollowBarrier = 0.03, FollowLowering = 0.5, FollowDamping = 4e-4;
 
 class BlockFitter
 {
@@ -130,17 +119,30 @@ private:
       0.05 + 0.9 * std::log(size / root) / std::log(std::max(2.0, most / root)), 0.0, 0.99);
   }
 
-  void Lap(const char* topic) { this->Time.Lap(topic); }
-
   Index CountPoints(const TSpline& spline) const
   {
     return this->Layout.Share(spline, Sharing::Attributes).Count();
   }
 
+  // Throws where not even its points, as many as it may have, bring the shape to its surface.
+  void CheckReach(const FitStage& stage) const
+  {
+    const FitRound& last = this->Result.Rounds.back();
+    const double most = this->Options.LargestShapeDistance;
+    if (stage.Slides() && most > 0.0 && last.Rms > most)
+    {
+      std::ostringstream why;
+      why.precision(2);
+      why << "The shape stays " << last.Rms / this->Options.Spacing
+          << " voxels from its surface with " << last.ControlPoints << " control points.";
+      throw std::invalid_argument(why.str());
+    }
+  }
+
   void FitShape(ShapeTarget& target)
   {
     ScatteredSystem system(target.Samples(), 0, this->Layout, this->Run);
-    Stage stage{ system, 0, std::vector<double>(3, 1.0), this->Options.ShapeTolerance, 0.0,
+    FitStage stage{ system, 0, std::vector<double>(3, 1.0), this->Options.ShapeTolerance, 0.0,
       std::min(this->Options.MaximumShapePoints, this->Options.MaximumControlPoints), &target };
     this->Adapt(stage);
     this->Result.ShapePoints = system.Points().Count();
@@ -163,14 +165,14 @@ private:
       const FoundParameters found =
         FindParametersOnShape(this->Result.Spline, mesh, places, starts, this->Run);
       auto [outside, feet] = OutsideWithin(FarthestPull * this->Options.Spacing, found, places);
-      this->Lap("cover");
+      this->Time.Lap("cover");
       if (outside.empty())
       {
         return;
       }
       target.Pull(feet, outside);
       ScatteredSystem system(target.Samples(), 0, this->Layout, this->Run);
-      Stage stage{ system, 0, std::vector<double>(3, 1.0), 0.0, 0.0, 0, &target };
+      FitStage stage{ system, 0, std::vector<double>(3, 1.0), 0.0, 0.0, 0, &target };
       this->Update(stage);
       // The shape is the one that the last barrier left.
       this->SlideToSurface(stage, ShapeSolverOptions().LastBarrier, PullSteps);
@@ -186,26 +188,26 @@ private:
     const std::unique_ptr<RefinementRule> rule = this->Rule->Clone();
     this->Rule = std::make_unique<RefinementHistory>(std::move(this->Rule));
     ScatteredSystem system(samples, 3, this->Layout, this->Run);
-    Stage stage{ system, 3, {}, this->Options.RmsTolerance, this->Options.MaximumErrorTolerance,
+    FitStage stage{ system, 3, {}, this->Options.RmsTolerance, this->Options.MaximumErrorTolerance,
       this->Options.MaximumControlPoints, nullptr };
     for (int c = 0; c < samples.Components; ++c)
     {
       stage.Scales.push_back(system.Range(c));
     }
     this->Adapt(stage);
-    if (target.Slides() && !this->IsGoodEnough(stage))
+    if (target.Slides() && !stage.IsGoodEnough(this->Result.Rounds.back()))
     {
       this->FollowData(stage, samples, target, shape, *rule);
     }
     this->Result.SegmentRms = RmsOfSegments(this->Blocks, samples, system, stage.Scales);
     this->Result.Jump = WorstGradientJump(this->Blocks, this->Result.Spline, system.Mesh(),
       stage.Scales, this->Options.Spacing, this->Run);
-    this->Lap("jump");
+    this->Time.Lap("jump");
   }
 
   // Moves the shape, on its own net, to where the errors of the attributes want it, and fits these
   // again. What makes the fit worse, or folds, is taken back.
-  void FollowData(Stage& stage, ScatteredSamples& samples, ShapeTarget& target, TSpline shape,
+  void FollowData(FitStage& stage, ScatteredSamples& samples, ShapeTarget& target, TSpline shape,
     const RefinementRule& rule)
   {
     // What FitAttributes has made it, or a clone that Marks has put in its place.
@@ -219,7 +221,7 @@ private:
       const TSpline moved = MoveToData({ this->Result.Spline, this->Layout, samples, stage.System,
                                          stage.Scales, target, this->Options.Spacing },
         shape, barrier, damping, this->Run);
-      this->Lap("follow");
+      this->Time.Lap("follow");
       samples.Parameters = this->FindParameters(moved, parameters);
       this->Result.Spline = moved;
       history.Repeat(rule, this->Result.Spline);
@@ -249,7 +251,7 @@ private:
     }
   }
 
-  void Adapt(Stage& stage)
+  void Adapt(FitStage& stage)
   {
     TSpline& spline = this->Result.Spline;
     this->Update(stage);
@@ -260,24 +262,25 @@ private:
         spline.ControlPoint(i)[stage.FirstComponent + c] = stage.System.Mean(c);
       }
     }
-    this->Lap("sort");
+    this->Time.Lap("sort");
     stage.System.ComputeResiduals(spline);
     this->Solve(stage, FinalTolerance, FinalIterations);
     this->Measure(stage);
     for (bool isSolved = true;;)
     {
-      const bool isGood = this->IsGoodEnough(stage);
+      const bool isGood = stage.IsGoodEnough(this->Result.Rounds.back());
       const bool isRefined = !isGood && this->RefineOnce(stage);
       if (isRefined)
       {
         isSolved = false;
         this->Update(stage);
         stage.System.ComputeResiduals(spline);
-        this->Lap("sort");
+        this->Time.Lap("sort");
         this->Solve(stage, RoundTolerance, RoundIterations);
         this->Measure(stage);
         continue;
       }
+      this->CheckReach(stage);
       if (isSolved)
       {
         return;
@@ -286,32 +289,31 @@ private:
       this->Result.Rounds.pop_back();
       this->Solve(stage, FinalTolerance, FinalIterations);
       this->Measure(stage);
-      if (!isGood || this->IsGoodEnough(stage))
+      if (!isGood || stage.IsGoodEnough(this->Result.Rounds.back()))
       {
         return;
       }
     }
   }
 
-  void Update(Stage& stage)
+  void Update(FitStage& stage)
   {
     stage.System.Update(this->Result.Spline);
-    if (stage.Target && stage.Target->Slides())
+    if (stage.Slides())
     {
       stage.System.SetStiffness(std::vector<float>(stage.System.Mesh().Size(), Stiffness));
     }
   }
 
-  void Solve(Stage& stage, double tolerance, int iterations)
+  void Solve(FitStage& stage, double tolerance, int iterations)
   {
-    const bool slides = stage.Target && stage.Target->Slides();
-    if (!slides || this->Result.Rounds.empty())
+    if (!stage.Slides() || this->Result.Rounds.empty())
     {
       const GramMatrix gram = stage.System.Assemble();
-      this->Lap("assemble");
+      this->Time.Lap("assemble");
       this->Correct(stage, gram, tolerance, iterations);
     }
-    if (slides)
+    if (stage.Slides())
     {
       const ShapeSolverOptions usual;
       this->SlideToSurface(
@@ -320,17 +322,17 @@ private:
   }
 
   // Refinement keeps the shape, so that only the coarsest net can have folds.
-  void SlideToSurface(Stage& stage, double firstBarrier, int steps)
+  void SlideToSurface(FitStage& stage, double firstBarrier, int steps)
   {
     ShapeSolverOptions options;
     options.FirstBarrier = firstBarrier;
     options.Spacing = this->Options.Spacing;
     options.MostSteps = steps;
     SolveShape(this->Result.Spline, stage.System, *stage.Target, options, this->Run);
-    this->Lap("shape");
+    this->Time.Lap("shape");
   }
 
-  void Correct(Stage& stage, const GramMatrix& gram, double tolerance, int iterations)
+  void Correct(FitStage& stage, const GramMatrix& gram, double tolerance, int iterations)
   {
     TSpline& spline = this->Result.Spline;
     const SharedPoints& points = stage.System.Points();
@@ -345,48 +347,26 @@ private:
           correction[points.PointOf[i]] / spline.Weights[i];
       }
     }
-    this->Lap("solve");
+    this->Time.Lap("solve");
     stage.System.ComputeResiduals(spline);
-    this->Lap("evaluate");
+    this->Time.Lap("evaluate");
   }
 
-  void Measure(const Stage& stage)
+  void Measure(const FitStage& stage)
   {
-    FitRound round{ stage.System.Points().Count(), 0.0, 0.0, 0.0 };
-    for (std::size_t c = 0; c < stage.Scales.size(); ++c)
-    {
-      const ScatteredError error = stage.System.Error(static_cast<int>(c));
-      round.Rms = std::max(round.Rms, error.Rms / stage.Scales[c]);
-      round.MaximumError = std::max(round.MaximumError, error.Maximum / stage.Scales[c]);
-    }
-    if (stage.Target && stage.Target->Slides())
-    {
-      round.Rms = stage.Target->Distance().Rms;
-      round.MaximumError = stage.Target->Distance().Maximum;
-    }
-    round.Seconds = this->Time.Total();
-    this->Result.Rounds.push_back(round);
+    this->Result.Rounds.push_back(stage.Measure(this->Time.Total()));
     this->Run.Check(0.0);
   }
 
-  bool IsGoodEnough(const Stage& stage) const
+  Index MostPoints(const FitStage& stage) const
   {
-    const FitRound& round = this->Result.Rounds.back();
-    const bool wantsRms = stage.RmsTolerance > 0.0, wantsMaximum = stage.MaximumTolerance > 0.0;
-    return round.Rms <= RmsFloor ||
-           ((wantsRms || wantsMaximum) && (!wantsRms || round.Rms <= stage.RmsTolerance) &&
-             (!wantsMaximum || round.MaximumError <= stage.MaximumTolerance));
-  }
-
-  Index MostPoints(const Stage& stage) const
-  {
-    const bool isFar = stage.Target && stage.Target->Slides() &&
-                       this->Result.Rounds.back().Rms > TooFar * this->Options.Spacing;
+    const bool isFar =
+      stage.Slides() && this->Result.Rounds.back().Rms > TooFar * this->Options.Spacing;
     const Index ofFar = std::min(MostFar, this->Options.MaximumControlPoints / 2);
     return isFar ? std::max(stage.MaximumPoints, ofFar) : stage.MaximumPoints;
   }
 
-  bool RefineOnce(Stage& stage)
+  bool RefineOnce(FitStage& stage)
   {
     std::vector<SplitGain> gains;
     for (std::size_t c = 0; c < stage.Scales.size(); ++c)
@@ -394,10 +374,10 @@ private:
       const double scale = stage.Scales[c];
       stage.System.AddGains(static_cast<int>(c), 1.0 / (scale * scale), gains);
     }
-    this->Lap("indicator");
+    this->Time.Lap("indicator");
     const bool isRefined = this->Marks.Refine(
       std::move(gains), this->MostPoints(stage), this->Result.Spline, this->Rule);
-    this->Lap("refine");
+    this->Time.Lap("refine");
     return isRefined;
   }
 
@@ -410,18 +390,8 @@ private:
     this->Result.VoxelsInside = found.Inside;
     this->Result.VoxelsNear = std::count_if(found.Distances.begin(), found.Distances.end(),
       [this](double distance) { return distance <= 0.5 * this->Options.Spacing; });
-    const BezierMesh mesh(shape, this->Run);
-    auto [least, mean] = JacobianAt(shape, mesh, found.Parameters, this->Run);
-    this->Result.ShapeCells = mesh.Size();
-    this->Result.FoldedCells = this->Result.CertifiedCells = 0;
-    for (const CellJacobian& cell : BoundJacobian(shape, mesh, this->Run))
-    {
-      least = std::min(least, cell.Sampled);
-      this->Result.FoldedCells += cell.Sampled <= 0.0;
-      this->Result.CertifiedCells += cell.Certified;
-    }
-    this->Result.SmallestJacobian = least / mean;
-    this->Lap("parameters");
+    this->Result.Folds = FindFolds(shape, found.Parameters, this->Run);
+    this->Time.Lap("parameters");
     return found.Parameters;
   }
 

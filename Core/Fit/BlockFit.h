@@ -19,6 +19,7 @@
 #include "Domain/BlockComplex.h"
 #include "Fit.h"
 #include "GradientJump.h"
+#include "ShapeJacobian.h"
 
 #include <array>
 #include <functional>
@@ -69,6 +70,9 @@ struct BlockFitOptions
   /// as it is more than 0.35 Spacing, up to half of all and 2000.
   double ShapeTolerance = 0.1;
   Index MaximumShapePoints = 2000;
+  /// A shape that slides and is farther away than this when it has all its points is refused with
+  /// an error, before the costly steps that end it; 0: none is.
+  double LargestShapeDistance = 0.0;
   double Spacing = 1.0;  ///< distance of voxels in the unit of the places
   int CoarsestCells = 1; ///< along the edge of a block, a power of two
 };
@@ -89,12 +93,7 @@ struct BlockFitResult
   double ShapeRms = 0.0, ShapeMaximum = 0.0; ///< distance from where the surface is wanted
   Index VoxelsInside = 0;                    ///< voxels that the shape passes through
   Index VoxelsNear = 0; ///< others, up to half of Spacing away; they have their nearest point
-  /// The least determinant of d(X, Y, Z)/d(u, v, w) at all voxels and at 9^3 points of each cell of
-  /// the shape, 33^3 of those not proven positive, in parts of the mean over the voxels.
-  double SmallestJacobian = 0.0;
-  /// Cells of the shape, those of them with a point where that is not positive, and those proven
-  /// positive everywhere.
-  Index ShapeCells = 0, FoldedCells = 0, CertifiedCells = 0;
+  ShapeFolds Folds;     ///< of the shape, also at all voxels
   /// Of the attribute where it is largest, in parts of its range a Spacing.
   GradientJump Jump;
   std::vector<std::pair<std::string, double>> Seconds; ///< by topic

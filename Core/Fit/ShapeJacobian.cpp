@@ -192,4 +192,22 @@ std::pair<double, double> JacobianAt(const TSpline& spline, const BezierMesh& me
   }
   return { least, sum / static_cast<double>(n) };
 }
+
+//------------------------------------------------------------------------------
+ShapeFolds FindFolds(
+  const TSpline& spline, const std::vector<double>& parameters, const Execution& execution)
+{
+  const BezierMesh mesh(spline, execution);
+  auto [least, mean] = JacobianAt(spline, mesh, parameters, execution);
+  ShapeFolds folds;
+  folds.Cells = mesh.Size();
+  for (const CellJacobian& cell : BoundJacobian(spline, mesh, execution))
+  {
+    least = std::min(least, cell.Sampled);
+    folds.Folded += cell.Sampled <= 0.0;
+    folds.Certified += cell.Certified;
+  }
+  folds.SmallestJacobian = least / mean;
+  return folds;
+}
 }

@@ -30,6 +30,19 @@ std::pair<double, double> JacobianAt(const TSpline& spline, const BezierMesh& me
  */
 std::vector<CellJacobian> BoundJacobian(
   const TSpline& spline, const BezierMesh& mesh, const Execution& execution = {});
+
+struct ShapeFolds
+{
+  /// The least determinant at the voxels and at the points that each cell is sampled at, in parts
+  /// of the mean over the voxels.
+  double SmallestJacobian = 0.0;
+  /// All cells, those with a point where it is not positive, and those proven positive everywhere.
+  Index Cells = 0, Folded = 0, Certified = 0;
+};
+
+/// `parameters`: (u, v, w) of each voxel.
+ShapeFolds FindFolds(
+  const TSpline& spline, const std::vector<double>& parameters, const Execution& execution = {});
 }
 
 #endif

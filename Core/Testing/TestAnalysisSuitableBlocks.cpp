@@ -129,7 +129,7 @@ TEST(AnalysisSuitableBlocks, CarryAFit)
   EXPECT_EQ(CheckDualCompatibility(one.Spline), "");
   EXPECT_LE(one.ControlPoints, 900);
   EXPECT_GT(one.ControlPoints, 500);
-  EXPECT_EQ(one.FoldedCells, 0);
+  EXPECT_EQ(one.Folds.Folded, 0);
   EXPECT_LT(100.0 * one.Rounds.back().Rms, 2.0);
   std::mt19937 random(1);
   EXPECT_LT(LargestGap(ball.Map.Blocks, one.Spline, random), 1e-12 * ball.Map.Radius);

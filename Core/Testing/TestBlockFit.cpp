@@ -35,7 +35,7 @@ TEST(BlockFit, BeatsTheGridOnABall)
   EXPECT_LE(fit.ShapeRms, 0.05);
   EXPECT_LT(fit.ShapePoints, 500);
   EXPECT_EQ(fit.VoxelsInside, ball.Voxels.Count());
-  EXPECT_GT(fit.SmallestJacobian, 0.1);
+  EXPECT_GT(fit.Folds.SmallestJacobian, 0.1);
   // Nearly all of the jump (.002 inside) is in the ramp, whose gradient is the range a voxel.
   EXPECT_GT(fit.Jump.Rms, 0.0);
   EXPECT_LT(fit.Jump.Rms, 0.4);
@@ -72,7 +72,7 @@ TEST(BlockFit, SlidesOnTheSurface)
   EXPECT_LT(sliding.ShapeRms, 0.1);
   EXPECT_LT(sliding.ShapePoints, 300);
   EXPECT_EQ(sliding.VoxelsInside, ball.Voxels.Count());
-  EXPECT_GT(sliding.SmallestJacobian, 0.0);
+  EXPECT_GT(sliding.Folds.SmallestJacobian, 0.0);
   EXPECT_EQ(sliding.NumbersStored, 3 * sliding.ShapePoints + sliding.ControlPoints);
   nodes.Surface.clear();
   const BlockFitResult fixed = fit(nodes);
@@ -102,6 +102,32 @@ TEST(BlockFit, GivesAShapeThatIsFarFromItsSurfaceMorePoints)
   EXPECT_LE(smooth.ShapePoints, 240);
   EXPECT_GT(wavy.ShapePoints, 240);
   EXPECT_LE(wavy.ShapePoints, 350);
+}
+
+// With a limit for that distance such a fit ends as soon as its shape has all its points; one that
+// keeps to it is as without.
+TEST(BlockFit, RefusesAShapeThatStaysAwayFromItsSurface)
+{
+  const BallPhantom ball(24);
+  const auto fit = [&ball](double most)
+  {
+    BlockFitOptions options = Options(600, 0.1);
+    options.LargestShapeDistance = most;
+    return FitBlocks(
+      ball.Map.Blocks, ball.Voxels, ball.Map.Nodes(12), options, ThreadedExecution(2));
+  };
+  const BlockFitResult any = fit(0.0), near = fit(0.5);
+  EXPECT_LT(any.ShapeRms, 0.5);
+  EXPECT_EQ(any.Spline.ControlPoints, near.Spline.ControlPoints);
+  try
+  {
+    fit(0.001);
+    FAIL() << "no error";
+  }
+  catch (const std::invalid_argument& error)
+  {
+    EXPECT_EQ(std::string(error.what()).rfind("The shape stays 0.", 0), 0u) << error.what();
+  }
 }
 
 // Where block meshes have a dent and leave voxels out, the surface is pulled over some of them
@@ -279,7 +305,7 @@ TEST(BlockFit, FitsAnEllAsOneGrid)
   EXPECT_EQ(one.ShapePoints, 96);
   EXPECT_EQ(three.ShapePoints, 160);
   EXPECT_EQ(one.VoxelsInside, 3 * 512);
-  EXPECT_EQ(one.FoldedCells, 0);
+  EXPECT_EQ(one.Folds.Folded, 0);
   EXPECT_LT(one.Rounds.back().Rms, 0.9 * three.Rounds.back().Rms);
 }
 

@@ -231,6 +231,9 @@ TEST(TSplineFitDomain, RefusesWhatDoesNotBelongTogether)
   EXPECT_NE(messageOf(fit).find("compact or the analysis-suitable"), std::string::npos);
   fit = MakeFit(ball, 231);
   EXPECT_NE(messageOf(fit).find("at least 232"), std::string::npos);
+  fit = MakeFit(ball, 600);
+  fit->SetLargestShapeDistance(0.001);
+  EXPECT_NE(messageOf(fit).find("The shape stays 0."), std::string::npos);
 
   vtkNew<vtkImageData> image;
   image->ShallowCopy(ball.Image);
