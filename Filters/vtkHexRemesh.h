@@ -35,8 +35,8 @@
  * least and mean.
  *
  * @par Cost
- * 20 to 60 microseconds of processor time for a cell where the domain fits its segment; up to 2 ms
- * where cells stay inverted (Documentation/Results.md).
+ * 80 to 400 microseconds of processor time for a cell where the domain fits its segment; up to 3 ms
+ * where it does not (Documentation/Results.md).
  *
  * @par Distributed data
  * Process 0 makes all, from whole inputs; the others give nothing.
