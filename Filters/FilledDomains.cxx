@@ -75,6 +75,7 @@ FilledDomains Parameterize(vtkImageData* frames, vtkPolyData* patches,
   parameters->SetInputData(1, patches);
   parameters->SetInputData(2, polycubes);
   parameters->SetCellLength(CellLength(frames));
+  parameters->RefineThinPartsOff(); // fits do not take FrameParameter
   ChainStep(parameters, chain, from, to).Run();
   FilledDomains domains;
   domains.Fields = vtkImageData::SafeDownCast(parameters->GetOutputDataObject(0));

@@ -3,7 +3,9 @@
 #include "ParameterDomain.h"
 
 #include "LatticeSurface.h"
+#include "MemoryLimit.h"
 #include "Parameter/BlockLocation.h"
+#include "Parameter/FineVoxels.h"
 #include "Parameter/ThinParts.h"
 
 #include <algorithm>
@@ -24,6 +26,9 @@ constexpr double FarthestFromMesh = 1.5;
 constexpr std::uint8_t KnownInSegment = 2; // see VoxelParameter::Known
 
 constexpr double ThinPart = 0.05; // of the work on a segment: to look for thin parts
+
+// Twice what solving takes (vtkVolumeParameterization), for it is not the only one.
+constexpr double BytesPerFineVoxel = 320.0;
 
 BlockComplex ComplexOf(const DomainInput& input)
 {
@@ -63,8 +68,19 @@ std::vector<std::uint8_t> MaskOf(const ImageSamples& samples, int segment)
   return mask;
 }
 
+// On voxels of half the size where parts are thin and there is memory for it.
+VoxelParameter SolveSegment(const ParameterVoxels& voxels, const ParameterSurface& surface,
+  const ParameterSettings& settings, ThinParts& thin, const Execution& execution)
+{
+  const double bytes = BytesPerFineVoxel * static_cast<double>(CountFineVoxels(voxels.Size));
+  thin.Refined = settings.RefinesThinParts && thin.Share > MostThin &&
+                 MemoryFault("The finer grid", bytes).empty();
+  return thin.Refined ? SolveOnFineVoxels(voxels, surface, settings.Options, execution)
+                      : SolveVoxelParameter(voxels, surface, settings.Options, execution);
+}
+
 void SolveSegments(const ImageSamples& samples, vtkPolyData* patches, const GridSpace& space,
-  const ParameterOptions& options, ParameterDomain& domain, const Execution& execution)
+  const ParameterSettings& settings, ParameterDomain& domain, const Execution& execution)
 {
   const std::vector<int>& owners = domain.Input.Domain.Segments;
   const std::set<int> segments(owners.begin(), owners.end());
@@ -76,16 +92,16 @@ void SolveSegments(const ImageSamples& samples, vtkPolyData* patches, const Grid
     try
     {
       const std::vector<std::uint8_t> mask = MaskOf(samples, segment);
-      domain.ThinShares[segment] =
-        ThinShare(mask, { samples.Points(0), samples.Points(1), samples.Points(2) },
-          execution.Part(from, from + ThinPart * share));
+      ThinParts& thin = domain.Thin[segment];
+      thin.Share = ThinShare(mask, { samples.Points(0), samples.Points(1), samples.Points(2) },
+        execution.Part(from, from + ThinPart * share));
       const ParameterSurface surface = LatticeSurfaceOf(patches, domain.Input, segment, space);
       if (surface.Triangles.empty())
       {
         continue;
       }
       domain.Solved.emplace(
-        segment, SolveVoxelParameter(VoxelsOf(samples, space, mask), surface, options,
+        segment, SolveSegment(VoxelsOf(samples, space, mask), surface, settings, thin,
                    execution.Part(from + ThinPart * share, from + share)));
     }
     catch (const std::invalid_argument& error)
@@ -180,7 +196,7 @@ ParameterDomain ParameterizeDomain(const ImageSamples& samples, vtkPolyData* pat
   const GridSpace space(samples.IndexToPhysical, samples.Extent);
   ParameterDomain domain{ ReadDomain(patches, polycube), {}, {}, {}, {}, {}, {}, {}, {}, {}, {} };
   domain.Complex = ComplexOf(domain.Input);
-  SolveSegments(samples, patches, space, settings.Options, domain, execution.Part(0.0, 0.3));
+  SolveSegments(samples, patches, space, settings, domain, execution.Part(0.0, 0.3));
   CollectSolved(samples, domain);
   BlockMeshOptions options;
   options.CellLength = settings.CellLength * std::cbrt(space.Spacing.prod());

@@ -18,6 +18,17 @@ struct ParameterSettings
 {
   ParameterOptions Options;
   double CellLength = 2.0; ///< of the block mesh, in voxels
+  bool RefinesThinParts = true;
+};
+
+/// The most of a segment that may be in parts thinner than four voxels without any remedy.
+constexpr double MostThin = 0.02;
+
+/// Of a segment.
+struct ThinParts
+{
+  double Share = 0.0;   ///< of its voxels, see ThinShare
+  bool Refined = false; ///< whether it was solved for on voxels of half the size
 };
 
 struct ParameterDomain
@@ -27,7 +38,7 @@ struct ParameterDomain
   BlockMesh Mesh;       ///< in space
   BlockMeshReport Report;
   std::map<int, VoxelParameter> Solved; ///< of the segments whose cubes lie in a lattice
-  std::map<int, double> ThinShares;     ///< of each segment, see ThinParts.h
+  std::map<int, ThinParts> Thin;        ///< of each segment
 
   /// Of each voxel of the image: the parameter in the one space of all blocks, the group of its
   /// block, or -1, and 1 where that is known, else 0.

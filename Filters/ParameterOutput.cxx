@@ -81,10 +81,12 @@ void AddFieldData(const ParameterDomain& domain, vtkFieldData* fields)
 {
   WriteQuality(domain.Report, fields);
   std::vector<int> segments, iterations;
+  std::vector<std::uint8_t> refined;
   std::vector<double> residuals, deviations, largest, lengths;
   for (const auto& [segment, solved] : domain.Solved)
   {
     segments.push_back(segment);
+    refined.push_back(domain.Thin.at(segment).Refined ? 1 : 0);
     for (int axis = 0; axis < 3; ++axis)
     {
       const ParameterSolve& solve = solved.Solves[axis];
@@ -97,6 +99,7 @@ void AddFieldData(const ParameterDomain& domain, vtkFieldData* fields)
     }
   }
   fields->AddArray(Copied<vtkIntArray>("ParameterSegment", 1, segments));
+  fields->AddArray(Copied<vtkUnsignedCharArray>("ParameterRefined", 1, refined));
   fields->AddArray(Copied<vtkIntArray>("ParameterIterations", 3, iterations));
   fields->AddArray(Copied<vtkDoubleArray>("ParameterResidual", 3, residuals));
   fields->AddArray(Copied<vtkDoubleArray>("ParameterDeviation", 3, deviations));

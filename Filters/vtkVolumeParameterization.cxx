@@ -31,7 +31,6 @@ vtkCxxSetObjectMacro(vtkVolumeParameterization, Controller, vtkMultiProcessContr
 
 namespace
 {
-constexpr double MostThin = 0.02;       // of a segment, in thin parts without a warning
 constexpr double BytesPerVoxel = 240.0; // image and box around a segment together
 }
 
@@ -219,6 +218,7 @@ void vtkVolumeParameterization::Parameterize(const ImageSamples& samples, vtkPol
   settings.Options.Rounds = this->Rounds;
   settings.Options.Tolerance = this->Tolerance;
   settings.CellLength = this->CellLength;
+  settings.RefinesThinParts = this->RefineThinParts;
   const ParameterDomain domain =
     ParameterizeDomain(samples, patches, polycube, settings, SMPExecution(this));
   if (domain.Report.End.Inverted > 0)
@@ -227,14 +227,15 @@ void vtkVolumeParameterization::Parameterize(const ImageSamples& samples, vtkPol
                     << " cells of the block mesh are inverted; more cubes, other corners or finer "
                        "voxels may avoid that.");
   }
-  for (const auto& [segment, share] : domain.ThinShares)
+  for (const auto& [segment, thin] : domain.Thin)
   {
-    if (share > MostThin)
+    if (thin.Share > MostThin)
     {
       vtkWarningMacro(
-        << "Segment " << segment << " has " << 100.0 * share
-        << " percent of its voxels in parts thinner than four voxels, where blocks may "
-           "be flat or leave parts out; resample the image to finer voxels.");
+        << "Segment " << segment << " has " << 100.0 * thin.Share
+        << " percent of its voxels in parts thinner than four voxels, where blocks may be flat or "
+           "leave parts out; cells about as small as the parts are thin may help."
+        << (thin.Refined ? " FrameParameter was solved for on voxels of half the size." : ""));
     }
   }
   image->SetExtent(const_cast<int*>(samples.Extent.data()));
@@ -253,6 +254,7 @@ void vtkVolumeParameterization::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Gradient: " << (this->Gradient == TRILINEAR ? "Trilinear" : "Polynomial")
      << "\n";
   os << indent << "Rounds: " << this->Rounds << "\n";
+  os << indent << "RefineThinParts: " << this->RefineThinParts << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "CellLength: " << this->CellLength << "\n";
   os << indent << "Controller: " << this->Controller << "\n";

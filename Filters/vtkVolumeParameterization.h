@@ -45,7 +45,8 @@
  * ParameterSegment, ParameterLengths (double x 3), of the domain along u, v, w,
  * ParameterIterations (int32 x 3), ParameterResidual (double x 3, relative) and ParameterDeviation
  * (double x 3) and ParameterLargestDeviation (double x 3): how far FrameParameter is from constant
- * on patches, measured on the surface, in parts of the length: root mean square and the most.
+ * on patches, measured on the surface, in parts of the length: root mean square and the most; and
+ * ParameterRefined (uint8): 1 where voxels of half the size were used.
  *
  * Port 1, polycube: with the point array DomainPosition (double x 3), where corners lie in a domain
  * with the solved lengths (zero where a segment has no lattice), and the cell arrays BlockLengths
@@ -143,6 +144,17 @@ public:
 
   ///@{
   /**
+   * Of FrameParameter: whether segments with more than two percent of their voxels in parts thinner
+   * than four voxels are solved for on voxels of half the size, if there is memory for it; eight
+   * times the time and memory. Default is on.
+   */
+  vtkSetMacro(RefineThinParts, bool);
+  vtkGetMacro(RefineThinParts, bool);
+  vtkBooleanMacro(RefineThinParts, bool);
+  ///@}
+
+  ///@{
+  /**
    * The wanted length of the block mesh's cells, in voxels. Valid range [0.5, 1000]. Default is 2.
    */
   vtkSetClampMacro(CellLength, double, 0.5, 1000.0);
@@ -184,6 +196,7 @@ private:
   int Rounds = 0;
   double Tolerance = 1e-8;
   double CellLength = 2.0;
+  bool RefineThinParts = true;
   vtkMultiProcessController* Controller = nullptr;
 };
 

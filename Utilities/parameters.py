@@ -9,7 +9,7 @@
 
 Each row is a volume and its threshold, on the domain that domains.py saved in FOLDER: the iterations
 of u, v and w to a relative residual of 1e-8, and how far each is from constant on its patches,
-measured on the surface, in parts of its length: the root mean square and the most. The block mesh is
+measured on the surface, in parts of its length: the root mean square and the most; refined: on voxels of half the size, for its thin parts. The block mesh is
 coarse; nothing is taken from it.
 """
 import pathlib
@@ -39,10 +39,10 @@ def print_row(folder, run):
     solved.Update()
     fields = solved.GetOutput().GetFieldData()
     rows = zip(*(vtk_to_numpy(fields.GetArray(name)) for name in (
-        "ParameterSegment", "ParameterIterations", "ParameterDeviation",
+        "ParameterSegment", "ParameterRefined", "ParameterIterations", "ParameterDeviation",
         "ParameterLargestDeviation")))
-    for segment, iterations, deviations, largest in rows:
-        print(f"| {run.replace('=', ' > ')}, {segment} | {', '.join(map(str, iterations))} "
+    for segment, refined, iterations, deviations, largest in rows:
+        print(f"| {run.replace('=', ' > ')}, {segment}{', refined' if refined else ''} | {', '.join(map(str, iterations))} "
               f"| {', '.join(f'{d:.4f}' for d in deviations)} "
               f"| {', '.join(f'{d:.3f}' for d in largest)} |", flush=True)
 

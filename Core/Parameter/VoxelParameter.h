@@ -112,7 +112,8 @@ struct VoxelParameter
 
 /**
  * Solves for u, v and w, one after the other. Time: 20 to 50 iterations of conjugate gradients with
- * multigrid, whatever the size; with polynomial gradients 70 to 120. The result does not depend on the number of threads.
+ * multigrid, whatever the size; with polynomial gradients 70 to 120. The result does not depend on
+ * the number of threads.
  *
  * Throws std::invalid_argument where the mask is empty or in pieces, the surface is open or does
  * not bound the segment, an axis has fewer than two planes, a frame is zero or not finite, an

@@ -411,10 +411,13 @@ TEST(VolumeParameterization, SaysWhatIsWrong)
 
 //------------------------------------------------------------------------------
 // A ball with a fin of two voxels around it, which is thinner than cells need, and the ball alone.
+// Such parts are solved for on a finer grid, unless that is not wanted.
 TEST(VolumeParameterization, WarnsOfThinParts)
 {
-  for (const bool finned : { true, false })
+  const std::pair<bool, bool> cases[] = { { true, true }, { true, false }, { false, true } };
+  for (const auto& [isFinned, isRefined] : cases)
   {
+    const bool finned = isFinned;
     Chain chain(
       BallExtent,
       [finned](const double* p)
@@ -425,6 +428,7 @@ TEST(VolumeParameterization, WarnsOfThinParts)
       },
       true);
     chain.Parameters->SetCellLength(3.0); // the voxels warn, not the cells
+    chain.Parameters->SetRefineThinParts(isRefined);
     std::string warnings;
     vtkNew<vtkCallbackCommand> collect;
     collect->SetClientData(&warnings);
@@ -434,6 +438,11 @@ TEST(VolumeParameterization, WarnsOfThinParts)
     chain.Update();
     const bool warned = warnings.find("parts thinner than four voxels") != std::string::npos;
     EXPECT_EQ(warned, finned) << warnings;
+    vtkDataArray* refined =
+      chain.Parameters->GetOutput()->GetFieldData()->GetArray("ParameterRefined");
+    ASSERT_NE(refined, nullptr);
+    EXPECT_EQ(refined->GetTuple1(0), finned && isRefined ? 1.0 : 0.0);
+    EXPECT_EQ(warnings.find("voxels of half the size") != std::string::npos, finned && isRefined);
     EXPECT_GT(chain.Parameters->GetBlocks()->GetNumberOfPartitionedDataSets(), 0U);
   }
 }
