@@ -9,8 +9,8 @@
 
 Each row is a volume and its threshold, on the domain that domains.py saved in FOLDER: the iterations
 of u, v and w to a relative residual of 1e-8, and how far each is from constant on its patches,
-measured on the surface, in parts of its length: the root mean square and the most; refined: on voxels of half the size, for its thin parts. The block mesh is
-coarse; nothing is taken from it.
+measured on the surface, in parts of its length: the root mean square and the most; refined: on
+voxels of half the size, for its thin parts. The block mesh is coarse; nothing is taken from it.
 """
 import pathlib
 import sys

@@ -55,9 +55,9 @@ inline ParameterShape SlantedBox(Index n)
 }
 
 /// Radius, angle from 0 to 90 degrees, height, with unit frames: lengths are solved for.
-inline ParameterShape UnitAnnulus(Index n)
+inline ParameterShape QuarterTube(Index n, double inner, double thick, double height)
 {
-  const double inner = 0.35 * n, thick = 0.55 * n, height = 0.4 * n, right = std::acos(0.0);
+  const double right = std::acos(0.0);
   const Eigen::Vector3d origin(0.51, 0.52, 3.3);
   return { n,
     [=](const Eigen::Vector3d& p) -> Eigen::Vector3d
@@ -77,6 +77,11 @@ inline ParameterShape UnitAnnulus(Index n)
         Eigen::Vector3d(x[0] - origin[0], x[1] - origin[1], 0.0).normalized();
       return RowsOf(r, Eigen::Vector3d::UnitZ().cross(r), Eigen::Vector3d::UnitZ());
     } };
+}
+
+inline ParameterShape UnitAnnulus(Index n)
+{
+  return QuarterTube(n, 0.35 * n, 0.55 * n, 0.4 * n);
 }
 
 /// A square bar along z that turns by `turn` radians over its length; frames are its gradients.

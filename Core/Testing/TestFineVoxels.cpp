@@ -12,29 +12,10 @@ using namespace trivariate;
 
 namespace
 {
-// A quarter of a tube whose wall is as thick as two and a half voxels.
+// Its wall is as thick as two and a half voxels.
 ParameterShape ThinTube()
 {
-  const double inner = 12.2, thick = 2.5, height = 9.0, right = std::acos(0.0);
-  const Eigen::Vector3d origin(0.51, 0.52, 3.3);
-  return { 18,
-    [=](const Eigen::Vector3d& p) -> Eigen::Vector3d
-    {
-      const double r = inner + thick * p[0], t = right * p[1];
-      return origin + Eigen::Vector3d(r * std::cos(t), r * std::sin(t), height * p[2]);
-    },
-    [=](const Eigen::Vector3d& x) -> Eigen::Vector3d
-    {
-      const Eigen::Vector3d d = x - origin;
-      return { (std::hypot(d[0], d[1]) - inner) / thick, std::atan2(d[1], d[0]) / right,
-        d[2] / height };
-    },
-    [=](const Eigen::Vector3d& x) -> Eigen::Matrix3d
-    {
-      const Eigen::Vector3d r =
-        Eigen::Vector3d(x[0] - origin[0], x[1] - origin[1], 0.0).normalized();
-      return RowsOf(r, Eigen::Vector3d::UnitZ().cross(r), Eigen::Vector3d::UnitZ());
-    } };
+  return QuarterTube(18, 12.2, 2.5, 9.0);
 }
 
 // Root mean square over the voxels of the segment, in parts of the ranges.
