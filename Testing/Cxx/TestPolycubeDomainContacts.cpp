@@ -2,32 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Segments that touch, one not around the other: what both have in common.
 #include "DomainChecks.h"
-
-#include "vtkCallbackCommand.h"
-#include "vtkCommand.h"
+#include "WarningLog.h"
 
 using namespace trivariate_testing;
 
 namespace
 {
-// All warnings of one algorithm, instead of printing them.
-class WarningLog
-{
-public:
-  explicit WarningLog(vtkAlgorithm* algorithm)
-  {
-    this->Collect->SetClientData(&this->Text);
-    this->Collect->SetCallback([](vtkObject*, unsigned long, void* text, void* message)
-      { *static_cast<std::string*>(text) += static_cast<char*>(message); });
-    algorithm->AddObserver(vtkCommand::WarningEvent, this->Collect);
-  }
-
-  std::string Text;
-
-private:
-  vtkNew<vtkCallbackCommand> Collect;
-};
-
 int IntegerAt(vtkDataSetAttributes* data, const char* name, vtkIdType id, int component = 0)
 {
   return static_cast<int>(data->GetArray(name)->GetComponent(id, component));

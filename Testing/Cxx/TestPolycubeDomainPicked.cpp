@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Corners picked for several segments at once.
 #include "DomainChecks.h"
+#include "WarningLog.h"
 
-#include "vtkCallbackCommand.h"
-#include "vtkCommand.h"
 #include "vtkDoubleArray.h"
 #include "vtkPoints.h"
 
@@ -148,16 +147,10 @@ TEST(PolycubeDomain, WarnsThatPickedCornersAreNotShared)
   std::vector<Corner> corners;
   AddBox({ -9.5, -5.5, -5.5 }, { 0.5, 5.5, 5.5 }, 2, corners);
   domain->SetInputData(1, Points(corners));
-  std::string text;
-  vtkNew<vtkCallbackCommand> collect;
-  collect->SetClientData(&text);
-  collect->SetCallback([](vtkObject*, unsigned long, void* all, void* message)
-    { *static_cast<std::string*>(all) += static_cast<char*>(message); });
-  domain->AddObserver(vtkCommand::WarningEvent, collect);
+  const WarningLog log(domain);
   domain->Update();
-  EXPECT_NE(text.find("2 and 5 touch but have separate domains there: corners are picked for 2."),
-    std::string::npos)
-    << text;
+  EXPECT_TRUE(log.Says("2 and 5 touch but have separate domains there: corners are picked for 2."))
+    << log.Text;
   EXPECT_EQ(ValuesOf(CellArray(domain->GetPolycube(), "Segment")), (std::set<int>{ 2, 5 }));
 }
 

@@ -3,8 +3,8 @@
 /// Segments with a common surface in the one click.
 #include "ReconstructionPhantom.h"
 #include "Stop.h"
+#include "WarningLog.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkCellData.h"
 #include "vtkSMPTools.h"
 
@@ -150,21 +150,14 @@ TEST(TSplineReconstruction, FitsSegmentsThatTouchApartWhereBoxesAreBetter)
   const auto image = BallInShell([](int label, const double* x, double)
     { return label == 2 ? 200.0 + 0.5 * x[1] * x[1] : 100.0 + 0.3 * x[0] * x[2]; });
   auto reconstruction = ReconstructTogether(image);
-  std::string warnings;
-  vtkNew<vtkCallbackCommand> listen;
-  listen->SetClientData(&warnings);
-  listen->SetCallback([](vtkObject*, unsigned long, void* all, void* text)
-    { *static_cast<std::string*>(all) += static_cast<const char*>(text); });
-  reconstruction->AddObserver(vtkCommand::WarningEvent, listen);
+  const WarningLog log(reconstruction);
   reconstruction->Update();
-  const auto says = [&warnings](const std::string& words)
-  { return warnings.find(words) != std::string::npos; };
   const std::string together = "Segments 1 and 2 are not fitted together over common faces: boxes "
                                "are more accurate with ";
-  EXPECT_TRUE(says(together)) << warnings;
-  EXPECT_FALSE(says(together + "as many")) << "a trial with few tells already: " << warnings;
-  EXPECT_TRUE(says("Segment 1 is fitted over its bounding box: ")) << warnings;
-  EXPECT_TRUE(says("Segment 2 is fitted over its bounding box: boxes are more")) << warnings;
+  EXPECT_TRUE(log.Says(together)) << log.Text;
+  EXPECT_FALSE(log.Says(together + "as many")) << "a trial with few tells already: " << log.Text;
+  EXPECT_TRUE(log.Says("Segment 1 is fitted over its bounding box: ")) << log.Text;
+  EXPECT_TRUE(log.Says("Segment 2 is fitted over its bounding box: boxes are more")) << log.Text;
   const auto report = ReportOn(reconstruction);
   for (const vtkIdType row : { 1, 2 })
   {

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DomainChecks.h"
 #include "ParameterChecks.h"
+#include "Stop.h"
+#include "WarningLog.h"
 #include "vtkFrameField.h"
 #include "vtkVolumeParameterization.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
@@ -262,16 +263,29 @@ TEST(VolumeParameterization, OptionsChangeWhatIsSolvedFor)
     return values;
   };
   const std::vector<double> places = valuesOf("Parameter"), solved = valuesOf("FrameParameter");
-  chain.Parameters->SetEpsilon(0.05);
-  EXPECT_EQ(valuesOf("Parameter"), places);
-  const std::vector<double> freer = valuesOf("FrameParameter");
-  double most = 0.0;
-  for (std::size_t i = 0; i < solved.size(); ++i)
+  const auto expect = [&](const char* option, double least, double most)
   {
-    most = std::max(most, std::abs(freer[i] - solved[i]));
-  }
-  EXPECT_GT(most, 0.01);
-  EXPECT_LT(most, 0.5);
+    EXPECT_EQ(valuesOf("Parameter"), places) << option;
+    double change = 0.0;
+    const std::vector<double> changed = valuesOf("FrameParameter");
+    for (std::size_t i = 0; i < solved.size(); ++i)
+    {
+      change = std::max(change, std::abs(changed[i] - solved[i]));
+    }
+    EXPECT_GT(change, least) << option;
+    EXPECT_LT(change, most) << option;
+  };
+  vtkVolumeParameterization* filter = chain.Parameters;
+  filter->SetTolerance(1e-4);
+  expect("Tolerance", 1e-9, 1e-3);
+  filter->SetRounds(2);
+  expect("Rounds", 1e-3, 0.5);
+  filter->SetRounds(0);
+  filter->SetGradient(vtkVolumeParameterization::POLYNOMIAL);
+  expect("Gradient", 1e-3, 0.5);
+  filter->SetGradient(vtkVolumeParameterization::TRILINEAR);
+  filter->SetEpsilon(0.05);
+  expect("Epsilon", 0.01, 0.5);
 }
 
 //------------------------------------------------------------------------------
@@ -349,24 +363,14 @@ TEST(VolumeParameterization, StopsWhenAbortedAndRunsAgain)
 {
   Chain chain(BarExtent, BentBar, false);
   chain.Field->Update();
-  static double stopAt;
-  vtkNew<vtkCallbackCommand> stop;
-  stop->SetCallback(
-    [](vtkObject* caller, unsigned long, void*, void*)
-    {
-      auto* filter = vtkAlgorithm::SafeDownCast(caller);
-      filter->SetAbortExecute(filter->GetProgress() > stopAt);
-    });
   for (const double share : { 0.1, 0.35 })
   {
-    stopAt = share;
-    const unsigned long observer = chain.Parameters->AddObserver(vtkCommand::ProgressEvent, stop);
+    const Stop stop(chain.Parameters, share);
     chain.Parameters->Modified();
     chain.Parameters->Update();
+    EXPECT_TRUE(stop.WasAsked());
     EXPECT_NE(chain.Parameters->GetAbortExecute(), 0);
     EXPECT_EQ(chain.Parameters->GetBlocks()->GetNumberOfPartitionedDataSets(), 0U);
-    chain.Parameters->RemoveObserver(observer);
-    chain.Parameters->SetAbortExecute(0);
   }
   chain.Parameters->Modified();
   chain.Update();
@@ -429,20 +433,14 @@ TEST(VolumeParameterization, WarnsOfThinParts)
       true);
     chain.Parameters->SetCellLength(3.0); // the voxels warn, not the cells
     chain.Parameters->SetRefineThinParts(isRefined);
-    std::string warnings;
-    vtkNew<vtkCallbackCommand> collect;
-    collect->SetClientData(&warnings);
-    collect->SetCallback([](vtkObject*, unsigned long, void* all, void* text)
-      { *static_cast<std::string*>(all) += static_cast<const char*>(text); });
-    chain.Parameters->AddObserver(vtkCommand::WarningEvent, collect);
+    const WarningLog log(chain.Parameters);
     chain.Update();
-    const bool warned = warnings.find("parts thinner than four voxels") != std::string::npos;
-    EXPECT_EQ(warned, finned) << warnings;
+    EXPECT_EQ(log.Says("parts thinner than four voxels"), finned) << log.Text;
+    EXPECT_EQ(log.Says("voxels of half the size"), finned && isRefined) << log.Text;
     vtkDataArray* refined =
       chain.Parameters->GetOutput()->GetFieldData()->GetArray("ParameterRefined");
     ASSERT_NE(refined, nullptr);
     EXPECT_EQ(refined->GetTuple1(0), finned && isRefined ? 1.0 : 0.0);
-    EXPECT_EQ(warnings.find("voxels of half the size") != std::string::npos, finned && isRefined);
     EXPECT_GT(chain.Parameters->GetBlocks()->GetNumberOfPartitionedDataSets(), 0U);
   }
 }
