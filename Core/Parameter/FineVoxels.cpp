@@ -17,8 +17,8 @@ namespace
 {
 using Place = std::array<Index, 3>;
 
-// Cells between the grid and the surface around it, which may leave it by half a voxel.
-constexpr Index Room = 1;
+// Fine cells around the grid: surfaces may leave it by two voxels, as for BoxOfCells.
+constexpr Index Room = 4;
 
 Place FineSize(const Place& size)
 {
