@@ -68,15 +68,30 @@ std::vector<std::uint8_t> MaskOf(const ImageSamples& samples, int segment)
   return mask;
 }
 
-// On voxels of half the size where parts are thin and there is memory for it.
+// On voxels of half the size where parts are thin and there is memory for it. What cannot be solved
+// for there is tried on those of the image, in which the error is told.
 VoxelParameter SolveSegment(const ParameterVoxels& voxels, const ParameterSurface& surface,
   const ParameterSettings& settings, ThinParts& thin, const Execution& execution)
 {
   const double bytes = BytesPerFineVoxel * static_cast<double>(CountFineVoxels(voxels.Size));
   thin.Refined = settings.RefinesThinParts && thin.Share > MostThin &&
                  MemoryFault("The finer grid", bytes).empty();
-  return thin.Refined ? SolveOnFineVoxels(voxels, surface, settings.Options, execution)
-                      : SolveVoxelParameter(voxels, surface, settings.Options, execution);
+  if (thin.Refined)
+  {
+    try
+    {
+      return SolveOnFineVoxels(voxels, surface, settings.Options, execution.Part(0.0, 0.9));
+    }
+    catch (const std::logic_error&)
+    {
+    }
+    catch (const std::runtime_error&)
+    {
+    }
+    thin.Refined = false;
+  }
+  return SolveVoxelParameter(
+    voxels, surface, settings.Options, execution.Part(thin.Share > MostThin ? 0.9 : 0.0, 1.0));
 }
 
 void SolveSegments(const ImageSamples& samples, vtkPolyData* patches, const GridSpace& space,

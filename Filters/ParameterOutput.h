@@ -12,7 +12,7 @@ class vtkPartitionedDataSetCollection;
 
 namespace trivariate
 {
-/// The arrays Parameter, FrameParameter, ParameterMask and Block of the whole image, and field data.
+/// Parameter and FrameParameter with their masks and Block of the whole image, and field data.
 void WriteParameters(const ParameterDomain& domain, vtkImageData* image);
 
 /// Adds DomainPosition and BlockLengths, and replaces Block by the groups of the complex.

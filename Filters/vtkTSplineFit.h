@@ -193,8 +193,8 @@ public:
   ///@{
   /**
    * Over a domain, a shape that is farther than this many voxels from its surface (root mean
-   * square) when its control points are used up is refused with an error, before the steps that
-   * take most of the time. Valid range [0, 100]. Default is 0: none is refused.
+   * square) when it is refined no further is refused with an error, before the steps that take
+   * most of the time. Valid range [0, 100]. Default is 0: none is refused.
    */
   vtkSetClampMacro(LargestShapeDistance, double, 0.0, 100.0);
   vtkGetMacro(LargestShapeDistance, double);

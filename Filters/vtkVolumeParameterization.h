@@ -145,8 +145,8 @@ public:
   ///@{
   /**
    * Of FrameParameter: whether segments with more than two percent of their voxels in parts thinner
-   * than four voxels are solved for on voxels of half the size, if there is memory for it; eight
-   * times the time and memory. Default is on.
+   * than four voxels are solved for on voxels of half the size, if there is memory for it and no
+   * error there; eight times the time and memory. Default is on.
    */
   vtkSetMacro(RefineThinParts, bool);
   vtkGetMacro(RefineThinParts, bool);

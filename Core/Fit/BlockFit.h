@@ -70,8 +70,8 @@ struct BlockFitOptions
   /// as it is more than 0.35 Spacing, up to half of all and 2000.
   double ShapeTolerance = 0.1;
   Index MaximumShapePoints = 2000;
-  /// A shape that slides and is farther away than this when it has all its points is refused with
-  /// an error, before the costly steps that end it; 0: none is.
+  /// A shape that slides and is farther away than this when it is refined no further is refused
+  /// with an error, before the costly steps that end it; 0: none is.
   double LargestShapeDistance = 0.0;
   double Spacing = 1.0;  ///< distance of voxels in the unit of the places
   int CoarsestCells = 1; ///< along the edge of a block, a power of two

@@ -1,85 +1,20 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DomainChecks.h"
+#include "ParameterChain.h"
 #include "ParameterChecks.h"
 #include "Stop.h"
-#include "WarningLog.h"
-#include "vtkFrameField.h"
-#include "vtkVolumeParameterization.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
-#include "vtkPartitionedDataSetCollection.h"
 #include "vtkSMPTools.h"
-#include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
 
 using namespace trivariate_testing;
 
 namespace
 {
-struct Chain
-{
-  vtkNew<vtkImageData> Image;
-  vtkNew<vtkSegmentBoundary> Boundary;
-  vtkNew<vtkPolycubeDomain> Domain;
-  vtkNew<vtkFrameField> Field;
-  vtkNew<vtkVolumeParameterization> Parameters;
-
-  Chain(const int extent[6], const Label& label, bool layered, bool turned = false)
-  {
-    this->Image->SetExtent(const_cast<int*>(extent));
-    if (turned)
-    {
-      this->Image->SetOrigin(3.0, -2.0, 1.0);
-      this->Image->SetDirectionMatrix(0, 1, 0, 1, 0, 0, 0, 0, 1); // left-handed
-    }
-    vtkNew<vtkIntArray> labels;
-    labels->SetName("Segment");
-    for (int k = extent[4]; k <= extent[5]; ++k)
-    {
-      for (int j = extent[2]; j <= extent[3]; ++j)
-      {
-        for (int i = extent[0]; i <= extent[1]; ++i)
-        {
-          const double index[3] = { double(i), double(j), double(k) };
-          labels->InsertNextValue(label(index));
-        }
-      }
-    }
-    this->Image->GetPointData()->AddArray(labels);
-    this->Boundary->SetInputData(this->Image);
-    this->Boundary->UseDensityOff();
-    this->Domain->SetInputConnection(this->Boundary->GetOutputPort());
-    this->Domain->SetLayered(layered);
-    this->Field->SetInputData(this->Image);
-    this->Field->SetInputConnection(1, this->Domain->GetOutputPort());
-    this->Parameters->SetCellLength(1.0);
-    this->Parameters->SetInputConnection(this->Field->GetOutputPort());
-    this->Parameters->SetInputConnection(1, this->Domain->GetOutputPort(0));
-    this->Parameters->SetInputConnection(2, this->Domain->GetOutputPort(1));
-  }
-
-  vtkImageData* Update()
-  {
-    this->Parameters->Update();
-    return this->Parameters->GetOutput();
-  }
-
-  double Known(const char* name, int component = 0)
-  {
-    vtkDataArray* array = this->Parameters->GetOutput()->GetFieldData()->GetArray(name);
-    return array ? array->GetComponent(0, component) : vtkMath::Nan();
-  }
-
-  vtkStructuredGrid* Block(unsigned int block)
-  {
-    return vtkStructuredGrid::SafeDownCast(
-      this->Parameters->GetBlocks()->GetPartitionAsDataObject(block, 0));
-  }
-};
-
 // A quarter of a ring.
 int BentBar(const double* p)
 {
@@ -90,7 +25,7 @@ const int BarExtent[6] = { 0, 27, 0, 27, -9, 9 };
 
 // Its corners by hand: along the radius, the arc, the axis. Geodesics alone would cut off the outer
 // arc.
-void PickCornersOfBar(Chain& chain, bool mirrored)
+void PickCornersOfBar(ParameterChain& chain, bool mirrored)
 {
   vtkNew<vtkPoints> points;
   for (int corner = 0; corner < 8; ++corner)
@@ -119,7 +54,7 @@ const int BallExtent[6] = { -13, 13, -13, 13, -13, 13 };
 
 // Arrays fit each other; each voxel lies where its parameter is in the blocks; cells are sound and
 // fill the segments.
-void ExpectParameters(Chain& chain, double leastJacobian)
+void ExpectParameters(ParameterChain& chain, double leastJacobian)
 {
   vtkImageData* image = chain.Parameters->GetOutput();
   vtkDataArray* segment = image->GetPointData()->GetArray("Segment");
@@ -219,7 +154,7 @@ TEST(VolumeParameterization, OneGridInABentBar)
 {
   for (const bool turned : { false, true })
   {
-    Chain chain(BarExtent, BentBar, false, turned);
+    ParameterChain chain(BarExtent, BentBar, false, turned);
     PickCornersOfBar(chain, turned);
     vtkImageData* image = chain.Update();
     ExpectParameters(chain, 0.1);
@@ -251,7 +186,7 @@ TEST(VolumeParameterization, OneGridInABentBar)
 // What is solved for along the frames changes with how; the place in the block mesh does not.
 TEST(VolumeParameterization, OptionsChangeWhatIsSolvedFor)
 {
-  Chain chain(BarExtent, BentBar, false);
+  ParameterChain chain(BarExtent, BentBar, false);
   const auto valuesOf = [&chain](const char* name)
   {
     vtkDataArray* array = chain.Update()->GetPointData()->GetArray(name);
@@ -291,7 +226,7 @@ TEST(VolumeParameterization, OptionsChangeWhatIsSolvedFor)
 //------------------------------------------------------------------------------
 TEST(VolumeParameterization, LayersInABall)
 {
-  Chain chain(
+  ParameterChain chain(
     BallExtent, [](const double* p) { return BallInBall(p) != 0; }, true);
   chain.Update();
   ExpectParameters(chain, 0.1);
@@ -302,7 +237,7 @@ TEST(VolumeParameterization, LayersInABall)
 // Faces that two blocks have in common have the same points, bit by bit, of two segments too.
 TEST(VolumeParameterization, SegmentsShareTheirInterface)
 {
-  Chain chain(BallExtent, BallInBall, true);
+  ParameterChain chain(BallExtent, BallInBall, true);
   chain.Update();
   ExpectParameters(chain, 0.1);
   std::map<Place, std::set<int>> owners;
@@ -340,7 +275,7 @@ TEST(VolumeParameterization, SegmentsShareTheirInterface)
 //------------------------------------------------------------------------------
 TEST(VolumeParameterization, IsTheSameOnOneThread)
 {
-  Chain chain(BarExtent, BentBar, false);
+  ParameterChain chain(BarExtent, BentBar, false);
   vtkNew<vtkImageData> threaded;
   threaded->DeepCopy(chain.Update());
   chain.Parameters->Modified();
@@ -361,7 +296,7 @@ TEST(VolumeParameterization, IsTheSameOnOneThread)
 // While it solves, and while it meshes.
 TEST(VolumeParameterization, StopsWhenAbortedAndRunsAgain)
 {
-  Chain chain(BarExtent, BentBar, false);
+  ParameterChain chain(BarExtent, BentBar, false);
   chain.Field->Update();
   for (const double share : { 0.1, 0.35 })
   {
@@ -380,7 +315,7 @@ TEST(VolumeParameterization, StopsWhenAbortedAndRunsAgain)
 //------------------------------------------------------------------------------
 TEST(VolumeParameterization, SaysWhatIsWrong)
 {
-  Chain chain(BarExtent, BentBar, false);
+  ParameterChain chain(BarExtent, BentBar, false);
   ErrorLog log(chain.Parameters);
   const auto expect = [&](const std::string& text)
   {
@@ -411,36 +346,4 @@ TEST(VolumeParameterization, SaysWhatIsWrong)
   still->GetPointData()->GetArray("FrameV")->Fill(0.0);
   chain.Parameters->SetInputData(still);
   expect("The frame of voxel");
-}
-
-//------------------------------------------------------------------------------
-// A ball with a fin of two voxels around it, which is thinner than cells need, and the ball alone.
-// Such parts are solved for on a finer grid, unless that is not wanted.
-TEST(VolumeParameterization, WarnsOfThinParts)
-{
-  const std::pair<bool, bool> cases[] = { { true, true }, { true, false }, { false, true } };
-  for (const auto& [isFinned, isRefined] : cases)
-  {
-    const bool finned = isFinned;
-    Chain chain(
-      BallExtent,
-      [finned](const double* p)
-      {
-        const double r = std::hypot(p[0], p[1]);
-        return std::hypot(r, p[2]) < 6.3 || (finned && r < 9.3 && p[2] > -1.5 && p[2] < 0.5) ? 1
-                                                                                             : 0;
-      },
-      true);
-    chain.Parameters->SetCellLength(3.0); // the voxels warn, not the cells
-    chain.Parameters->SetRefineThinParts(isRefined);
-    const WarningLog log(chain.Parameters);
-    chain.Update();
-    EXPECT_EQ(log.Says("parts thinner than four voxels"), finned) << log.Text;
-    EXPECT_EQ(log.Says("voxels of half the size"), finned && isRefined) << log.Text;
-    vtkDataArray* refined =
-      chain.Parameters->GetOutput()->GetFieldData()->GetArray("ParameterRefined");
-    ASSERT_NE(refined, nullptr);
-    EXPECT_EQ(refined->GetTuple1(0), finned && isRefined ? 1.0 : 0.0);
-    EXPECT_GT(chain.Parameters->GetBlocks()->GetNumberOfPartitionedDataSets(), 0U);
-  }
 }
