@@ -35,8 +35,8 @@ constexpr double ShareOfTrial = 0.2;   // of the fits over a domain: one with fe
 // over a box.
 constexpr double TrialPart = 0.125, MostOfTrial = 0.5;
 
-// A trial also ends where its shape stays farther away than this, in voxels: it then lost to the box
-// or left out too many voxels wherever it was looked at (Documentation/Results.md).
+// A trial also ends where its shape stays farther away than this, in voxels: wherever it was looked
+// at it then lost to the box or left out too many voxels (Documentation/Results.md).
 constexpr double MostTrialDistance = 0.6;
 
 // Segments that are to be fitted at once: one, or several with common faces.
