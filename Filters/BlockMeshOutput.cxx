@@ -75,6 +75,7 @@ void WriteBlock(const BlockMesh& mesh, const BlockLabels& labels, Index block,
   points->SetDataTypeToDouble();
   const auto node = Named<vtkIdTypeArray>("Node");
   const auto parameter = Named<vtkDoubleArray>("Parameter", 3);
+  const LatticePoint origin = labels.Origins.empty() ? LatticePoint{} : labels.Origins[block];
   vtkPointData* const data = grid->GetPointData();
   data->CopyAllocate(attributes, static_cast<vtkIdType>(mesh.Nodes[block].size()));
   ForCells({ n[0] + 1, n[1] + 1, n[2] + 1 },
@@ -83,7 +84,8 @@ void WriteBlock(const BlockMesh& mesh, const BlockLabels& labels, Index block,
       const Index number = mesh.Node(block, i, j, k);
       const vtkIdType point = points->InsertNextPoint(mesh.Places[number].data());
       node->InsertNextValue(number);
-      parameter->InsertNextTuple3(double(i) / n[0], double(j) / n[1], double(k) / n[2]);
+      parameter->InsertNextTuple3(
+        origin[0] + double(i) / n[0], origin[1] + double(j) / n[1], origin[2] + double(k) / n[2]);
       data->CopyData(attributes, number, point);
     });
   CellArrays cells;
@@ -152,9 +154,17 @@ void WriteQuality(const BlockMeshReport& report, vtkFieldData* field)
   const vtkIdType counts[2] = { report.Start.Inverted, report.End.Inverted };
   inverted->InsertNextTypedTuple(counts);
   field->AddArray(inverted);
-  const auto jacobian = Named<vtkDoubleArray>("ScaledJacobian", 2);
-  jacobian->InsertNextTuple2(report.End.LeastJacobian, report.End.MeanJacobian);
-  field->AddArray(jacobian);
+  const auto addPair = [field](const char* name, double first, double second)
+  {
+    const auto pair = Named<vtkDoubleArray>(name, 2);
+    pair->InsertNextTuple2(first, second);
+    field->AddArray(pair);
+  };
+  const auto& [toFaces, fromFaces] = report.Distances;
+  addPair("ScaledJacobian", report.End.LeastJacobian, report.End.MeanJacobian);
+  addPair("CellVolumeRatio", report.End.LowRatio, report.End.HighRatio);
+  addPair("PatchDistance", toFaces.Mean, toFaces.Largest);
+  addPair("FaceDistance", fromFaces.Mean, fromFaces.Largest);
 }
 
 //------------------------------------------------------------------------------
@@ -216,7 +226,8 @@ void SampleImage(
   vtkImageData* image, const std::vector<Eigen::Vector3d>& places, vtkPointData* attributes)
 {
   static const std::set<std::string> labels{ "Segment", "Block", "Parameter", "ParameterMask",
-    "FrameU", "FrameV", "FrameW", "vtkValidPointMask", "vtkGhostType" };
+    "FrameParameter", "FrameParameterMask", "FrameU", "FrameV", "FrameW", "vtkValidPointMask",
+    "vtkGhostType" };
   vtkPointData* const input = image->GetPointData();
   vtkNew<vtkPointData> sampled;
   for (int a = 0; a < input->GetNumberOfArrays(); ++a)

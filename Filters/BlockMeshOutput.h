@@ -4,6 +4,7 @@
 #ifndef BlockMeshOutput_h
 #define BlockMeshOutput_h
 
+#include "Domain/Polycube.h"
 #include "Parameter/BlockMeshing.h"
 
 class vtkFieldData;
@@ -14,16 +15,18 @@ class vtkUnstructuredGrid;
 
 namespace trivariate
 {
-/// What a block mesh belongs to: of each block, its segment and its group.
+/// What a block mesh belongs to: of each block, its segment, its group, and where its unit cube is
+/// in the space of (u, v, w); without origins each is at 0.
 struct BlockLabels
 {
   std::vector<int> Segments, Groups;
+  std::vector<LatticePoint> Origins;
 };
 
 /**
  * One structured grid a block, in order of the blocks. Points: Node (vtkIdType), the same for what
- * blocks share; Parameter (double x 3), in the unit cube of the block; then `attributes`, which has
- * a tuple a node. Cells: Segment, Block (int32), ScaledJacobian (double).
+ * blocks share; Parameter (double x 3), in the block's unit cube; then `attributes`, which has a
+ * tuple a node. Cells: Segment, Block (int32), ScaledJacobian (double).
  */
 void WriteBlockMesh(const BlockMesh& mesh, const BlockLabels& labels, vtkPointData* attributes,
   vtkPartitionedDataSetCollection* output);
@@ -32,8 +35,9 @@ void WriteBlockMesh(const BlockMesh& mesh, const BlockLabels& labels, vtkPointDa
 void WriteHexahedra(const BlockMesh& mesh, const BlockLabels& labels, vtkPointData* attributes,
   vtkUnstructuredGrid* output);
 
-/// InvertedCells (vtkIdType x 2: as interpolated and in the end) and ScaledJacobian (double x 2:
-/// least and mean, in the end).
+/// InvertedCells (vtkIdType x 2: as interpolated and in the end); in the end ScaledJacobian (least
+/// and mean), CellVolumeRatio (1 and 99 percent) and PatchDistance, FaceDistance (root mean square
+/// and largest), each double x 2.
 void WriteQuality(const BlockMeshReport& report, vtkFieldData* field);
 
 /**

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FrameOutput.h"
 
+#include "CutToExtent.h"
 #include "LabelledImage.h"
 
 #include "vtkCellArray.h"
@@ -38,30 +39,6 @@ void AddRow(vtkTable* table, std::initializer_list<double> values)
   {
     vtkDataArray::SafeDownCast(table->GetColumn(column++))->InsertNextTuple1(value);
   }
-}
-
-// The values of an extent within the whole.
-vtkNew<vtkFloatArray> Cut(
-  vtkFloatArray* whole, const std::array<int, 6>& wholeExtent, const int* extent)
-{
-  vtkNew<vtkFloatArray> part;
-  part->SetName(whole->GetName());
-  part->SetNumberOfComponents(3);
-  const vtkIdType row = extent[1] - extent[0] + 1;
-  part->SetNumberOfTuples(row * (extent[3] - extent[2] + 1) * (extent[5] - extent[4] + 1));
-  const vtkIdType nx = wholeExtent[1] - wholeExtent[0] + 1;
-  const vtkIdType ny = wholeExtent[3] - wholeExtent[2] + 1;
-  float* to = part->GetPointer(0);
-  for (vtkIdType k = extent[4]; k <= extent[5]; ++k)
-  {
-    for (vtkIdType j = extent[2]; j <= extent[3]; ++j, to += 3 * row)
-    {
-      const vtkIdType from =
-        extent[0] - wholeExtent[0] + nx * (j - wholeExtent[2] + ny * (k - wholeExtent[4]));
-      std::copy_n(whole->GetPointer(3 * from), 3 * row, to);
-    }
-  }
-  return part;
 }
 }
 
@@ -168,7 +145,7 @@ void FrameOutput::AddTo(vtkImageData* image) const
     }
     else
     {
-      image->GetPointData()->AddArray(Cut(array, this->Extent, extent));
+      image->GetPointData()->AddArray(CutToExtent(array, this->Extent.data(), extent));
     }
   }
   for (vtkIdType column = 0; column < this->Fields->GetNumberOfColumns(); ++column)

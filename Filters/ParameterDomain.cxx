@@ -23,8 +23,6 @@ namespace
 // Voxels farther from the block mesh than so many of their sides have no parameter.
 constexpr double FarthestFromMesh = 1.5;
 
-constexpr std::uint8_t KnownInSegment = 2; // see VoxelParameter::Known
-
 constexpr double ThinPart = 0.05; // of the work on a segment: to look for thin parts
 
 // Twice what solving takes (vtkVolumeParameterization), for it is not the only one.
@@ -115,9 +113,13 @@ void SolveSegments(const ImageSamples& samples, vtkPolyData* patches, const Grid
       {
         continue;
       }
-      domain.Solved.emplace(
-        segment, SolveSegment(VoxelsOf(samples, space, mask), surface, settings, thin,
-                   execution.Part(from + ThinPart * share, from + share)));
+      const Execution solving = execution.Part(from + ThinPart * share, from + share);
+      const VoxelParameter& solved =
+        domain.Solved
+          .emplace(
+            segment, SolveSegment(VoxelsOf(samples, space, mask), surface, settings, thin, solving))
+          .first->second;
+      domain.Folds[segment] = CountFolds(solved, space.IsMirrored() ? -1.0 : 1.0, solving);
     }
     catch (const std::invalid_argument& error)
     {
@@ -209,7 +211,8 @@ ParameterDomain ParameterizeDomain(const ImageSamples& samples, vtkPolyData* pat
   vtkUnstructuredGrid* polycube, const ParameterSettings& settings, const Execution& execution)
 {
   const GridSpace space(samples.IndexToPhysical, samples.Extent);
-  ParameterDomain domain{ ReadDomain(patches, polycube), {}, {}, {}, {}, {}, {}, {}, {}, {}, {} };
+  ParameterDomain domain{ ReadDomain(patches, polycube), {}, {}, {}, {}, {}, {}, {}, {}, {}, {},
+    {} };
   domain.Complex = ComplexOf(domain.Input);
   SolveSegments(samples, patches, space, settings, domain, execution.Part(0.0, 0.3));
   CollectSolved(samples, domain);

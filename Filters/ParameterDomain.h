@@ -38,6 +38,7 @@ struct ParameterDomain
   BlockMesh Mesh;       ///< in space
   BlockMeshReport Report;
   std::map<int, VoxelParameter> Solved; ///< of the segments whose cubes lie in a lattice
+  std::map<int, ParameterFolds> Folds;  ///< of these
   std::map<int, ThinParts> Thin;        ///< of each segment
 
   /// Of each voxel of the image: the parameter in the one space of all blocks, the group of its

@@ -3,46 +3,31 @@
 #include "ParameterOutput.h"
 
 #include "BlockMeshOutput.h"
+#include "CutToExtent.h"
+#include "NamedArray.h"
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
-#include "vtkInformation.h"
 #include "vtkIntArray.h"
 #include "vtkMultiProcessController.h"
-#include "vtkNew.h"
-#include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
-#include "vtkSmartPointer.h"
-#include "vtkStructuredData.h"
-#include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <string>
 
 namespace trivariate
 {
 namespace
 {
-template <typename ArrayT>
-vtkNew<ArrayT> Named(const char* name, int components, vtkIdType tuples)
-{
-  vtkNew<ArrayT> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(tuples);
-  return array;
-}
-
 template <typename ArrayT, typename T>
 vtkNew<ArrayT> Copied(const char* name, int components, const std::vector<T>& values)
 {
-  vtkNew<ArrayT> array =
-    Named<ArrayT>(name, components, static_cast<vtkIdType>(values.size()) / components);
+  vtkNew<ArrayT> array = Named<ArrayT>(name, components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()) / components);
   std::copy(values.begin(), values.end(), array->GetPointer(0));
   return array;
 }
@@ -81,12 +66,15 @@ void AddFieldData(const ParameterDomain& domain, vtkFieldData* fields)
 {
   WriteQuality(domain.Report, fields);
   std::vector<int> segments, iterations;
+  std::vector<vtkIdType> folds;
   std::vector<std::uint8_t> refined;
   std::vector<double> residuals, deviations, largest, lengths;
   for (const auto& [segment, solved] : domain.Solved)
   {
     segments.push_back(segment);
     refined.push_back(domain.Thin.at(segment).Refined ? 1 : 0);
+    const ParameterFolds& folded = domain.Folds.at(segment);
+    folds.insert(folds.end(), { folded.Folded, folded.Cells });
     for (int axis = 0; axis < 3; ++axis)
     {
       const ParameterSolve& solve = solved.Solves[axis];
@@ -100,33 +88,12 @@ void AddFieldData(const ParameterDomain& domain, vtkFieldData* fields)
   }
   fields->AddArray(Copied<vtkIntArray>("ParameterSegment", 1, segments));
   fields->AddArray(Copied<vtkUnsignedCharArray>("ParameterRefined", 1, refined));
+  fields->AddArray(Copied<vtkIdTypeArray>("ParameterFolds", 2, folds));
   fields->AddArray(Copied<vtkIntArray>("ParameterIterations", 3, iterations));
   fields->AddArray(Copied<vtkDoubleArray>("ParameterResidual", 3, residuals));
   fields->AddArray(Copied<vtkDoubleArray>("ParameterDeviation", 3, deviations));
   fields->AddArray(Copied<vtkDoubleArray>("ParameterLargestDeviation", 3, largest));
   fields->AddArray(Copied<vtkDoubleArray>("ParameterLengths", 3, lengths));
-}
-
-// The tuples of an extent within the whole.
-vtkSmartPointer<vtkDataArray> Cut(vtkDataArray* whole, const int* wholeExtent, const int* extent)
-{
-  vtkSmartPointer<vtkDataArray> part;
-  part.TakeReference(whole->NewInstance());
-  part->SetName(whole->GetName());
-  part->SetNumberOfComponents(whole->GetNumberOfComponents());
-  const vtkIdType row = extent[1] - extent[0] + 1;
-  part->SetNumberOfTuples(row * (extent[3] - extent[2] + 1) * (extent[5] - extent[4] + 1));
-  vtkIdType to = 0;
-  for (int k = extent[4]; k <= extent[5]; ++k)
-  {
-    for (int j = extent[2]; j <= extent[3]; ++j, to += row)
-    {
-      int first[3] = { extent[0], j, k };
-      part->InsertTuples(
-        to, row, vtkStructuredData::ComputePointIdForExtent(wholeExtent, first), whole);
-    }
-  }
-  return part;
 }
 }
 
@@ -146,8 +113,8 @@ void WriteParameters(const ParameterDomain& domain, vtkImageData* image)
 //------------------------------------------------------------------------------
 void WriteLengths(const ParameterDomain& domain, vtkUnstructuredGrid* polycube)
 {
-  const vtkNew<vtkDoubleArray> positions =
-    Named<vtkDoubleArray>("DomainPosition", 3, polycube->GetNumberOfPoints());
+  const auto positions = Named<vtkDoubleArray>("DomainPosition", 3);
+  positions->SetNumberOfTuples(polycube->GetNumberOfPoints());
   positions->Fill(0.0);
   const DomainInput& input = domain.Input;
   for (Index block = 0; block < domain.Complex.Size(); ++block)
@@ -167,8 +134,8 @@ void WriteLengths(const ParameterDomain& domain, vtkUnstructuredGrid* polycube)
       }
     }
   }
-  const vtkNew<vtkDoubleArray> lengths =
-    Named<vtkDoubleArray>("BlockLengths", 3, polycube->GetNumberOfCells());
+  const auto lengths = Named<vtkDoubleArray>("BlockLengths", 3);
+  lengths->SetNumberOfTuples(polycube->GetNumberOfCells());
   for (Index block = 0; block < domain.Complex.Size(); ++block)
   {
     lengths->SetTuple(block, LengthsOf(domain.Mesh, block).data());
@@ -179,48 +146,6 @@ void WriteLengths(const ParameterDomain& domain, vtkUnstructuredGrid* polycube)
 }
 
 //------------------------------------------------------------------------------
-void WriteBlocks(const ParameterDomain& domain, vtkPartitionedDataSetCollection* blocks)
-{
-  blocks->SetNumberOfPartitionedDataSets(static_cast<unsigned int>(domain.Complex.Size()));
-  for (Index block = 0; block < domain.Complex.Size(); ++block)
-  {
-    const std::array<int, 3>& n = domain.Mesh.Sizes[block];
-    vtkNew<vtkStructuredGrid> grid;
-    grid->SetDimensions(n[0] + 1, n[1] + 1, n[2] + 1);
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    const vtkNew<vtkDoubleArray> parameter =
-      Named<vtkDoubleArray>("Parameter", 3, (n[0] + 1) * (n[1] + 1) * (n[2] + 1));
-    for (const Index node : domain.Mesh.Nodes[block])
-    {
-      const vtkIdType id = points->InsertNextPoint(domain.Mesh.Places[node].data());
-      vtkIdType rest = id;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        parameter->SetComponent(id, axis,
-          domain.Complex.Origins[block][axis] +
-            static_cast<double>(rest % (n[axis] + 1)) / n[axis]);
-        rest /= n[axis] + 1;
-      }
-    }
-    grid->SetPoints(points);
-    grid->GetPointData()->AddArray(parameter);
-    const std::pair<const char*, int> numbers[] = { { "Segment", domain.Complex.Segments[block] },
-      { "Block", domain.Complex.Groups[block] } };
-    for (const auto& [name, number] : numbers)
-    {
-      const vtkNew<vtkIntArray> array = Named<vtkIntArray>(name, 1, grid->GetNumberOfCells());
-      array->Fill(number);
-      grid->GetCellData()->AddArray(array);
-    }
-    const unsigned int place = static_cast<unsigned int>(block);
-    blocks->SetPartition(place, 0, grid);
-    blocks->GetMetaData(place)->Set(
-      vtkCompositeDataSet::NAME(), ("Block " + std::to_string(block)).c_str());
-  }
-}
-
-//------------------------------------------------------------------------------
 void AddParameters(vtkImageData* whole, vtkImageData* image)
 {
   const bool isWhole = std::equal(whole->GetExtent(), whole->GetExtent() + 6, image->GetExtent());
@@ -228,7 +153,7 @@ void AddParameters(vtkImageData* whole, vtkImageData* image)
   {
     const vtkSmartPointer<vtkDataArray> array = whole->GetPointData()->GetArray(a);
     image->GetPointData()->AddArray(
-      isWhole ? array : Cut(array, whole->GetExtent(), image->GetExtent()));
+      isWhole ? array : CutToExtent(array, whole->GetExtent(), image->GetExtent()));
   }
   for (int a = 0; a < whole->GetFieldData()->GetNumberOfArrays(); ++a)
   {

@@ -8,7 +8,6 @@
 
 class vtkImageData;
 class vtkMultiProcessController;
-class vtkPartitionedDataSetCollection;
 
 namespace trivariate
 {
@@ -17,9 +16,6 @@ void WriteParameters(const ParameterDomain& domain, vtkImageData* image);
 
 /// Adds DomainPosition and BlockLengths, and replaces Block by the groups of the complex.
 void WriteLengths(const ParameterDomain& domain, vtkUnstructuredGrid* polycube);
-
-/// A structured grid for each block.
-void WriteBlocks(const ParameterDomain& domain, vtkPartitionedDataSetCollection* blocks);
 
 /// Adds the point arrays and field data of `whole` to an image, cut to its extent.
 void AddParameters(vtkImageData* whole, vtkImageData* image);

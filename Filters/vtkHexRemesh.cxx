@@ -154,7 +154,7 @@ void vtkHexRemesh::Remesh(vtkInformationVector** inputVector, vtkInformationVect
 
   vtkNew<vtkPointData> attributes;
   SampleImage(image, mesh.Places, attributes);
-  const BlockLabels labels{ domain.Segments, input.Groups };
+  const BlockLabels labels{ domain.Segments, input.Groups, {} };
   WriteBlockMesh(
     mesh, labels, attributes, vtkPartitionedDataSetCollection::GetData(outputVector, 0));
   vtkUnstructuredGrid* hexahedra = vtkUnstructuredGrid::GetData(outputVector, 1);

@@ -32,7 +32,9 @@
  * ScaledJacobian and the arrays of the image, ready for a solver; ElementBlockIds (int32) is
  * Segment again, by which VTK's Exodus writer makes an element block of each. Field data:
  * InvertedCells (vtkIdType x 2), as interpolated and in the end; ScaledJacobian (double x 2), its
- * least and mean.
+ * least and mean; CellVolumeRatio (double x 2), of a cell's volume to the mean of its block: 1 and
+ * 99 percent; PatchDistance (double x 2), of patches from the faces of cells, and FaceDistance,
+ * back, in units of space: root mean square and the most.
  *
  * @par Cost
  * 80 to 400 microseconds of processor time for a cell where the domain fits its segment; up to 3 ms

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkVolumeParameterization.h"
 
+#include "BlockMeshOutput.h"
 #include "GatherSamples.h"
 #include "LabelledImage.h"
 #include "MemoryLimit.h"
@@ -243,7 +244,9 @@ void vtkVolumeParameterization::Parameterize(const ImageSamples& samples, vtkPol
   vtkUnstructuredGrid* lengths = vtkUnstructuredGrid::GetData(outputVector, 1);
   lengths->ShallowCopy(polycube);
   WriteLengths(domain, lengths);
-  WriteBlocks(domain, vtkPartitionedDataSetCollection::GetData(outputVector, 2));
+  const BlockComplex& complex = domain.Complex;
+  WriteBlockMesh(domain.Mesh, { complex.Segments, complex.Groups, complex.Origins },
+    vtkNew<vtkPointData>(), vtkPartitionedDataSetCollection::GetData(outputVector, 2));
 }
 
 //------------------------------------------------------------------------------

@@ -40,21 +40,27 @@
  *   lattice of cubes (DomainCoordinates), zero where there is none;
  * - FrameParameterMask (uint8): 1 in the segments that were solved for, else 0.
  *
- * Field data: InvertedCells (vtkIdType x 2), of the block mesh as interpolated and in the end;
- * ScaledJacobian (double x 2), its least and mean; and for each segment that was solved for,
- * ParameterSegment, ParameterLengths (double x 3), of the domain along u, v, w,
- * ParameterIterations (int32 x 3), ParameterResidual (double x 3, relative) and ParameterDeviation
- * (double x 3) and ParameterLargestDeviation (double x 3): how far FrameParameter is from constant
- * on patches, measured on the surface, in parts of the length: root mean square and the most; and
- * ParameterRefined (uint8): 1 where voxels of half the size were used.
+ * Field data, of the block mesh: InvertedCells (vtkIdType x 2), as interpolated and in the end;
+ * ScaledJacobian (double x 2), its least and mean; CellVolumeRatio (double x 2), of a cell's volume
+ * to the mean of its block: 1 and 99 percent; PatchDistance (double x 2), how far the patches are
+ * from the faces of cells on them, that is from where Parameter is constant, in units of space:
+ * root mean square and the most; FaceDistance (double x 2), the same back from the faces.
+ *
+ * For each segment that was solved for ParameterSegment, ParameterLengths (double x 3), of the
+ * domain along u, v, w, ParameterIterations (int32 x 3), ParameterResidual (double x 3, relative),
+ * ParameterDeviation and ParameterLargestDeviation (double x 3): how far FrameParameter is from
+ * constant on patches, measured on the surface, in parts of the length: root mean square and the
+ * most; ParameterFolds (vtkIdType x 2), cells of eight voxels in the segment where FrameParameter
+ * is folded, and all; and ParameterRefined (uint8): 1 where voxels of half the size were used.
  *
  * Port 1, polycube: with the point array DomainPosition (double x 3), where corners lie in a domain
  * with the solved lengths (zero where a segment has no lattice), and the cell arrays BlockLengths
  * (double x 3), the mean lengths of the block's grid lines in space, and Block.
  *
  * Port 2, blocks: vtkPartitionedDataSetCollection with a vtkStructuredGrid for each hexahedron of
- * the polycube, in its order. Points: Parameter. Cells: Segment, Block. Neighbours have their
- * common points bit by bit.
+ * the polycube, in its order. Points: Node (vtkIdType), the same number for what blocks share, and
+ * Parameter. Cells: Segment, Block, ScaledJacobian (double). Neighbours have their common points
+ * bit by bit.
  *
  * @par Cost
  * Solving: 20 to 50 iterations for each parameter whatever the size; a segment that fills 256^3, 23

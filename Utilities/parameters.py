@@ -10,11 +10,14 @@
 Each row is a volume and its threshold, on the domain that domains.py saved in FOLDER: the iterations
 of u, v and w to a relative residual of 1e-8, and how far each is from constant on its patches,
 measured on the surface, in parts of its length: the root mean square and the most; refined: on
-voxels of half the size, for its thin parts. The block mesh is coarse; nothing is taken from it.
+voxels of half the size, for its thin parts; folded: cells of eight voxels. Patches: how far they are
+from the faces of the block mesh, with cells of two voxels, in parts of the cube root of the volume:
+the root mean square and the most.
 """
 import pathlib
 import sys
 
+import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from trivariate import vtkFrameField, vtkSegmentTopology, vtkVolumeParameterization
@@ -35,18 +38,22 @@ def print_row(folder, run):
     solved.SetInputDataObject(1, patches)
     solved.SetInputDataObject(2, polycube)
     solved.SetTolerance(1e-8)
-    solved.SetCellLength(8.0)
     solved.Update()
     fields = solved.GetOutput().GetFieldData()
     rows = zip(*(vtk_to_numpy(fields.GetArray(name)) for name in (
         "ParameterSegment", "ParameterRefined", "ParameterIterations", "ParameterDeviation",
-        "ParameterLargestDeviation")))
-    for segment, refined, iterations, deviations, largest in rows:
-        print(f"| {run.replace('=', ' > ')}, {segment}{', refined' if refined else ''} | {', '.join(map(str, iterations))} "
-              f"| {', '.join(f'{d:.4f}' for d in deviations)} "
-              f"| {', '.join(f'{d:.3f}' for d in largest)} |", flush=True)
+        "ParameterLargestDeviation", "ParameterFolds")))
+    masked = numpy.count_nonzero(vtk_to_numpy(
+        solved.GetOutput().GetPointData().GetArray("ParameterMask")))
+    size = numpy.cbrt(masked * numpy.prod(solved.GetOutput().GetSpacing()))
+    mean, most = fields.GetArray("PatchDistance").GetTuple2(0)
+    for segment, refined, iterations, deviations, largest, (folded, cells) in rows:
+        print(f"| {run.replace('=', ' > ')}, {segment}{', refined' if refined else ''} "
+              f"| {', '.join(map(str, iterations))} | {', '.join(f'{d:.4f}' for d in deviations)} "
+              f"| {', '.join(f'{d:.3f}' for d in largest)} | {folded:,} of {cells:,} "
+              f"| {mean / size:.4f}, {most / size:.3f} |", flush=True)
 
 
-print("| volume, segment | iterations | deviation | at most |\n|---|---|---|---|")
+print("| volume, segment | iterations | deviation | at most | folded | patches |\n|---|---|---|---|---|---|")
 for argument in sys.argv[2:]:
     print_row(pathlib.Path(sys.argv[1]), argument)

@@ -154,6 +154,7 @@ BlockMesh MakeBlockMesh(const BlockDomain& domain, const BlockMeshOptions& optio
   {
     report->Start = QualityOf(StartOfBlockMesh(domain, maps, levels[0]), execution);
     report->End = QualityOf(mesh, execution);
+    report->Distances = DistancesOfFaces(domain, mesh, execution.Part(1.0, 1.0));
   }
   return mesh;
 }
@@ -173,7 +174,8 @@ BlockMesh RefineBlockMesh(const BlockDomain& domain, const BlockMesh& mesh,
   Repair(refined, sliding, fit, CellTargets(refined), repair, execution);
   if (report)
   {
-    *report = { before, QualityOf(refined, execution) };
+    *report = { before, QualityOf(refined, execution),
+      DistancesOfFaces(domain, refined, execution.Part(1.0, 1.0)) };
   }
   return refined;
 }

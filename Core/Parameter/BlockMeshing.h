@@ -5,6 +5,7 @@
 #define trivariate_BlockMeshing_h
 
 #include "BlockRepair.h"
+#include "SurfaceDistance.h"
 
 namespace trivariate
 {
@@ -22,6 +23,7 @@ struct BlockMeshReport
 {
   CellQuality Start; ///< the mesh interpolated at once at the wanted resolution
   CellQuality End;
+  SurfaceDistances Distances; ///< of the mesh in the end
 };
 
 /// Cells of each block.

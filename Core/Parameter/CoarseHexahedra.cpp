@@ -5,7 +5,7 @@
 #include "BlockCells.h"
 #include "BlockMeshing.h"
 #include "Domain/DomainLayers.h"
-#include "Domain/TriangleTree.h"
+#include "SurfaceDistance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,47 +46,9 @@ double CellLength(const BlockDomain& domain, BlockMeshOptions options, double si
   return high;
 }
 
-// The faces of cells on the surface, each cut in two.
-std::vector<Triangle> OuterTriangles(const BlockDomain& domain, const BlockMesh& mesh)
-{
-  std::vector<Triangle> triangles;
-  for (const PatchFace& face : PatchFaces(domain, mesh))
-  {
-    for (int t = 0; t < face.Cells[1]; ++t)
-    {
-      for (int s = 0; s < face.Cells[0]; ++s)
-      {
-        const Index low = face.NodeAt(s, t), high = face.NodeAt(s + 1, t + 1);
-        triangles.push_back({ low, face.NodeAt(s + 1, t), high });
-        triangles.push_back({ low, high, face.NodeAt(s, t + 1) });
-      }
-    }
-  }
-  return triangles;
-}
-
-// Root of the mean square distance of the middles of triangles, by area, from other triangles.
-double DistanceFrom(const std::vector<Vector3d>& otherPoints, const std::vector<Triangle>& others,
-  const std::vector<Vector3d>& points, const std::vector<Triangle>& triangles)
-{
-  const TriangleTree tree(otherPoints, others);
-  double sum = 0.0, whole = 0.0;
-  for (const Triangle& t : triangles)
-  {
-    const Vector3d &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
-    const double area = (b - a).cross(c - a).norm();
-    const double distance = tree.Nearest((a + b + c) / 3.0).Distance;
-    sum += area * distance * distance;
-    whole += area;
-  }
-  return std::sqrt(sum / whole);
-}
-
 double QualityIn(const BlockDomain& blocks, const Execution& execution)
 {
-  const std::vector<Vector3d>& points = blocks.SurfacePoints;
-  const std::vector<Triangle>& surface = blocks.Triangles;
-  const double size = std::cbrt(VolumeInside(points, surface));
+  const double size = std::cbrt(VolumeInside(blocks.SurfacePoints, blocks.Triangles));
   BlockMeshOptions options;
   options.CellLength = CellLength(blocks, options, size);
   options.LayerCells = options.CellLength;
@@ -95,9 +57,8 @@ double QualityIn(const BlockDomain& blocks, const Execution& execution)
   options.Repair.MostRounds = 1;
   options.Repair.MostSmoothing = MostSmoothing;
   const BlockMesh mesh = MakeBlockMesh(blocks, options, execution);
-  const std::vector<Triangle> outer = OuterTriangles(blocks, mesh);
-  const double distance = std::max(DistanceFrom(mesh.Places, outer, points, surface),
-    DistanceFrom(points, surface, mesh.Places, outer));
+  const SurfaceDistances distances = DistancesOfFaces(blocks, mesh, execution);
+  const double distance = std::max(distances.ToFaces.Mean, distances.FromFaces.Mean);
   return QualityOf(mesh, execution).MeanJacobian / (1.0 + distance * std::cbrt(MostCells) / size);
 }
 }

@@ -308,4 +308,64 @@ bool VoxelParameter::Evaluate(const Vector3d& point, Vector3d& value, Matrix3d* 
   }
   return true;
 }
+
+//------------------------------------------------------------------------------
+ParameterFolds CountFolds(
+  const VoxelParameter& solved, double orientation, const Execution& execution)
+{
+  const std::array<Index, 3>& size = solved.Size;
+  const double toPoint = 0.5 / std::sqrt(3.0); // from the middle of a cell
+  std::vector<ParameterFolds> ofLayer(size[2]);
+  const auto isFolded = [&](const Vector3d& low)
+  {
+    for (int point = 0; point < 8; ++point)
+    {
+      Vector3d at = low, value;
+      Matrix3d gradient;
+      for (int a = 0; a < 3; ++a)
+      {
+        at[a] += 0.5 + ((point >> a & 1) != 0 ? toPoint : -toPoint);
+      }
+      solved.Evaluate(at.cwiseProduct(solved.Spacing), value, &gradient);
+      if (!(gradient.determinant() * orientation > 0.0))
+      {
+        return true;
+      }
+    }
+    return false;
+  };
+  execution.ParallelFor(size[2] - 1,
+    [&](Index begin, Index end)
+    {
+      for (Index k = begin; k < end; ++k)
+      {
+        for (Index j = 0; j + 1 < size[1]; ++j)
+        {
+          for (Index i = 0; i + 1 < size[0]; ++i)
+          {
+            bool isWhole = true;
+            for (int c = 0; c < 8; ++c)
+            {
+              const Index node =
+                i + (c & 1) + size[0] * (j + (c >> 1 & 1) + size[1] * (k + (c >> 2)));
+              isWhole = isWhole && solved.Known[node] == KnownInSegment;
+            }
+            if (isWhole)
+            {
+              ++ofLayer[k].Cells;
+              ofLayer[k].Folded += isFolded(Vector3d(
+                double(i + solved.Low[0]), double(j + solved.Low[1]), double(k + solved.Low[2])));
+            }
+          }
+        }
+      }
+    });
+  ParameterFolds sum;
+  for (const ParameterFolds& layer : ofLayer)
+  {
+    sum.Cells += layer.Cells;
+    sum.Folded += layer.Folded;
+  }
+  return sum;
+}
 }

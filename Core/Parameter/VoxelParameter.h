@@ -85,6 +85,8 @@ struct ParameterSolve
   double Deviation = 0.0, MeanDeviation = 0.0;
 };
 
+constexpr std::uint8_t KnownInSegment = 2; ///< see VoxelParameter::Known
+
 /// Solved parameters: trilinear between the voxels of the segment and its band.
 struct VoxelParameter
 {
@@ -92,7 +94,7 @@ struct VoxelParameter
   std::array<Index, 3> Size = { 0, 0, 0 }; ///< of the box of values, x fastest
   Eigen::Vector3d Spacing = Eigen::Vector3d::Ones();
   std::vector<double> Values;      ///< u, v, w in lattice units, voxel by voxel; 0 where not known
-  std::vector<std::uint8_t> Known; ///< 2: voxel of the segment, 1: of the band, 0: not known
+  std::vector<std::uint8_t> Known; ///< KnownInSegment, 1: of the band, 0: not known
 
   /// Of each axis the coordinates of its lattice planes, ascending, and their solved values: their
   /// differences are the lengths of the cubes.
@@ -109,6 +111,19 @@ struct VoxelParameter
   bool Evaluate(const Eigen::Vector3d& point, Eigen::Vector3d& value,
     Eigen::Matrix3d* gradient = nullptr) const;
 };
+
+/// Cells of eight voxels of the segment, and how many of them are folded.
+struct ParameterFolds
+{
+  Index Cells = 0, Folded = 0;
+};
+
+/**
+ * Folded is a cell where det d(u, v, w)/d(x, y, z) does not have the sign of `orientation` at one
+ * of its 2 x 2 x 2 integration points. O(n), the same whatever the number of threads.
+ */
+ParameterFolds CountFolds(
+  const VoxelParameter& solved, double orientation, const Execution& execution);
 
 /**
  * Solves for u, v and w, one after the other. Time: 20 to 50 iterations of conjugate gradients with

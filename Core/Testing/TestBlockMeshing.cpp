@@ -75,29 +75,9 @@ CellQuality ExpectSound(
   return quality;
 }
 
-// The farthest point of the surface from the faces of cells on it.
 double FarthestOf(const BlockDomain& domain, const BlockMesh& mesh)
 {
-  std::vector<Triangle> triangles;
-  for (const PatchFace& face : PatchFaces(domain, mesh))
-  {
-    for (int t = 0; t < face.Cells[1]; ++t)
-    {
-      for (int s = 0; s < face.Cells[0]; ++s)
-      {
-        triangles.push_back({ face.NodeAt(s, t), face.NodeAt(s + 1, t), face.NodeAt(s, t + 1) });
-        triangles.push_back(
-          { face.NodeAt(s + 1, t), face.NodeAt(s + 1, t + 1), face.NodeAt(s, t + 1) });
-      }
-    }
-  }
-  const TriangleTree faces(mesh.Places, triangles);
-  double farthest = 0.0;
-  for (const Vector3d& p : domain.SurfacePoints)
-  {
-    farthest = std::max(farthest, faces.Nearest(p).Distance);
-  }
-  return farthest;
+  return DistancesOfFaces(domain, mesh, Execution()).ToFaces.Largest;
 }
 }
 
@@ -204,6 +184,35 @@ TEST(BlockMeshing, FillsABallOnAnyThreads)
   EXPECT_GT(quality.LowRatio, 0.3);
   EXPECT_LT(quality.HighRatio, 3.0);
   EXPECT_EQ(MakeBlockMesh(domain, options, ThreadedExecution(3)).Places, mesh.Places);
+  EXPECT_EQ(report.Distances.ToFaces.Largest, FarthestOf(domain, mesh));
+}
+
+// A box whose face at x = 12 is drawn out to a ridge along y.
+TEST(BlockMeshing, MeasuresDistancesBothWays)
+{
+  const SegmentDomain box = LaidOut(Polycube::FromGrid({ 1, 1, 1 }), 12.0, 6);
+  const BlockDomain domain = DomainOfSegment(CubeBlocks(box), box);
+  BlockMeshOptions options;
+  options.CellsPerBlock = 6;
+  BlockMeshReport report;
+  BlockMesh mesh = MakeBlockMesh(domain, options, Execution(), &report);
+  EXPECT_LT(report.Distances.ToFaces.Largest, 1e-6);
+  EXPECT_LT(report.Distances.FromFaces.Largest, 1e-6);
+  const double height = 1.0;
+  for (Vector3d& place : mesh.Places)
+  {
+    place.x() += place.x() > 11.0 ? height * (1.0 - std::abs(place.z() - 6.0) / 6.0) : 0.0;
+  }
+  for (const Execution& execution : { Execution(), Execution(ThreadedExecution(3)) })
+  {
+    const SurfaceDistances distances = DistancesOfFaces(domain, mesh, execution);
+    EXPECT_NEAR(distances.FromFaces.Largest, height, 1e-6); // from the ridge
+    // To the slopes at right angles.
+    EXPECT_NEAR(distances.ToFaces.Largest, height * 6.0 / std::sqrt(37.0), 0.05);
+    // A sixth of the area is on average a third of the height squared away: sqrt(1 / 18).
+    EXPECT_NEAR(distances.FromFaces.Mean, height / std::sqrt(18.0), 0.02);
+    EXPECT_NEAR(distances.ToFaces.Mean, height / std::sqrt(18.0), 0.02);
+  }
 }
 
 TEST(BlockMeshing, FillsAShell)
@@ -257,11 +266,11 @@ TEST(BlockMeshing, CoversALimbWithPatience)
   options.Freedom = 0.5;
   options.Repair.Patience = 1;
   BlockMeshReport hasty, patient;
-  const BlockMesh early = MakeBlockMesh(domain, options, Execution(), &hasty);
+  MakeBlockMesh(domain, options, Execution(), &hasty);
   options.Repair.Patience = 6;
   const BlockMesh mesh = MakeBlockMesh(domain, options, Execution(), &patient);
   ExpectSound(domain, mesh, VolumeOf(surface), 0.5, 0.005);
-  EXPECT_LT(FarthestOf(domain, mesh), FarthestOf(domain, early) - 0.01);
+  EXPECT_LT(patient.Distances.ToFaces.Mean, hasty.Distances.ToFaces.Mean - 0.0005);
   EXPECT_GT(patient.End.MeanJacobian, hasty.End.MeanJacobian + 0.001);
 }
 
@@ -308,9 +317,8 @@ TEST(BlockMeshing, GivesUpOnHopelessBlocks)
   BlockMeshOptions options;
   options.CellsPerBlock = 4; // one level
   Watch watch;
-  BlockMeshReport report;
-  MakeBlockMesh(DomainOfSegment(blocks, cube), options, watch.Until(2.0), &report);
-  EXPECT_GT(report.End.Inverted, 32);
+  const BlockMesh mesh = MakeBlockMesh(DomainOfSegment(blocks, cube), options, watch.Until(2.0));
+  EXPECT_GT(QualityOf(mesh, Execution()).Inverted, 32);
   EXPECT_LT(watch.Progress, 0.4); // one round of the four
 }
 

@@ -212,6 +212,37 @@ TEST(VoxelParameter, EvaluatesBetweenVoxels)
   EXPECT_FALSE(solved.Evaluate({ std::numeric_limits<double>::quiet_NaN(), 5, 5 }, value));
 }
 
+TEST(VoxelParameter, CountsFolds)
+{
+  VoxelParameter solved;
+  solved.Low = { -1, 2, 0 };
+  solved.Size = { 4, 3, 3 };
+  solved.Spacing = { 1.0, 0.5, 2.0 };
+  solved.Known.assign(36, KnownInSegment);
+  for (int node = 0; node < 36; ++node)
+  {
+    solved.Values.insert(solved.Values.end(),
+      { double(node % 4), 1.0 + 0.5 * (node / 4 % 3), 7.0 + 0.1 * (node / 12) });
+  }
+  const auto expect = [&solved](double orientation, Index cells, Index folded)
+  {
+    for (const Execution& execution : { Execution(), Execution(ThreadedExecution(3)) })
+    {
+      const ParameterFolds folds = CountFolds(solved, orientation, execution);
+      EXPECT_EQ(folds.Cells, cells);
+      EXPECT_EQ(folds.Folded, folded);
+    }
+  };
+  expect(1.0, 12, 0);
+  expect(-1.0, 12, 12);
+  solved.Values[3 * (1 + 4 * (1 + 3 * 1))] += 3.0; // beyond the next voxel: in the four cells there
+  expect(1.0, 12, 4);
+  solved.Known[3] = 1; // a corner of a cell that is not folded
+  expect(1.0, 11, 4);
+  solved.Known[2] = 0; // and of one that is
+  expect(1.0, 10, 3);
+}
+
 TEST(VoxelParameter, KeepsSpacing)
 {
   const ParameterShape shape = SlantedBox(24);

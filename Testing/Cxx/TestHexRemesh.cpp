@@ -33,6 +33,11 @@ vtkNew<vtkImageData> LinearImage()
   }
   image->GetPointData()->AddArray(linear);
   image->GetPointData()->AddArray(segment);
+  vtkNew<vtkDoubleArray> solved; // not to be interpolated
+  solved->SetName("FrameParameter");
+  solved->SetNumberOfTuples(image->GetNumberOfPoints());
+  solved->Fill(0.0);
+  image->GetPointData()->AddArray(solved);
   return image;
 }
 
@@ -102,6 +107,7 @@ TEST(HexRemesh, FillsABall)
     vtkDataArray* linear = grid->GetPointData()->GetArray("linear");
     ASSERT_NE(linear, nullptr);
     EXPECT_EQ(grid->GetPointData()->GetArray("Segment"), nullptr);
+    EXPECT_EQ(grid->GetPointData()->GetArray("FrameParameter"), nullptr);
     for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
     {
       Place x;
