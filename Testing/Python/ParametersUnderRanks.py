@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Run by pvbatch on any number of ranks: parameterizes a ball and saves what reaches the client."""
+"""Run by pvbatch on any number of ranks: parameterizes a ball, fills it with hexahedra, also on the
+blocks that the parameters came with, and saves what reaches the client."""
 import sys
 
 import numpy
@@ -25,8 +26,18 @@ places = numpy.hstack([vtk_to_numpy(cells.GetPoints().GetData()),
                        vtk_to_numpy(cells.GetPointData().GetArray("Parameter"))])
 polycube = servermanager.Fetch(PassArrays(Input=OutputPort(parameters, 1),
                                           CellDataArrays=["BlockLengths"]))
-numpy.savez(sys.argv[1], Places=numpy.unique(numpy.round(places, 9), axis=0),
-            Lengths=vtk_to_numpy(polycube.GetCellData().GetArray("BlockLengths")))
+results = {"Places": numpy.unique(numpy.round(places, 9), axis=0),
+           "Lengths": vtk_to_numpy(polycube.GetCellData().GetArray("BlockLengths"))}
+for name, blocks in (("Hexes", None), ("Resampled", OutputPort(parameters, 2))):
+    hexes = HexRemesh(Input=parameters, Patches=OutputPort(domain, 0),
+                      Polycube=OutputPort(parameters, 1), EdgeLength=1.5)
+    if blocks:
+        hexes.BlockMeshes = blocks
+    mesh = servermanager.Fetch(PassArrays(Input=OutputPort(hexes, 1), PointDataArrays=["RTData"]))
+    results[f"{name}Points"] = vtk_to_numpy(mesh.GetPoints().GetData())
+    results[f"{name}Density"] = vtk_to_numpy(mesh.GetPointData().GetArray("RTData"))
+    results[f"{name}Cells"] = vtk_to_numpy(mesh.GetCells().GetConnectivityArray())
+numpy.savez(sys.argv[1], **results)
 
 parameters.Input = labels
 parameters.UpdatePipeline()  # one error, and no rank waits for another

@@ -1,30 +1,15 @@
 # SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Parameters under 1 and 2 ranks: the same, and a warning that the pieces are gathered."""
-import pathlib
-import subprocess
-import sys
+"""Parameters and hexahedra under 1, 2 and 3 ranks: the same, and a warning that the pieces are
+gathered."""
+from Ranks import alone, same, says
 
-import numpy
-
-pvbatch, mpiexec = sys.argv[1:3]
-script = pathlib.Path(__file__).with_name("ParametersUnderRanks.py")
-
-
-def run(ranks):
-    file = f"parameter_ranks{ranks}.npz"
-    command = [mpiexec, "--oversubscribe", "-n", str(ranks), pvbatch, str(script), file]
-    done = subprocess.run(command, capture_output=True, text=True)
-    output = done.stdout + done.stderr
-    assert done.returncode == 0, output
-    assert output.count("does not have the point array FrameU") == 1, output
-    return dict(numpy.load(file)), output
-
-
-reference, output = run(1)
+reference, output = alone("ParametersUnderRanks.py")
+fault = says("does not have the point array FrameU", 1)
+fault(output)
 assert len(reference["Places"]) > 500 and reference["Lengths"].shape == (7, 3)
-result, output = run(2)
-assert output.count("Parameters are found on one process") == 1, output
-for name, array in reference.items():
-    assert numpy.array_equal(array, result[name]), f"{name} differs under 2 ranks"
-print(len(reference["Places"]), "cells under 1 and 2 ranks")
+assert len(reference["HexesCells"]) > 8 * 300 and len(reference["ResampledCells"]) > 8 * 300
+same(reference, "ParametersUnderRanks.py",
+     lambda output: (fault(output), says("Parameters are found on one process", 1)(output)))
+print(len(reference["Places"]), "cells of voxels,", len(reference["HexesCells"]) // 8,
+      "hexahedra under 1, 2, 3 ranks")
