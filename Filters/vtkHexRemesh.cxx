@@ -30,7 +30,8 @@ namespace
 {
 // Of equal volumes beside right angles: less brings no better angles but cells of a third the size.
 constexpr double Evenness = 0.35;
-constexpr int Patience = 6; // sweeps, within which nearest points are found anew twice
+constexpr int Patience = 6;     // sweeps, within which nearest points are found anew twice
+constexpr double Facing = 10.0; // less leaves pleats, more keeps faces off limbs
 }
 
 vtkStandardNewMacro(vtkHexRemesh);
@@ -127,6 +128,7 @@ void vtkHexRemesh::Remesh(vtkInformationVector** inputVector, vtkInformationVect
   options.LayerCells = this->CellsPerBlock > 0 ? 0.0 : options.CellLength;
   options.Repair.Evenness = Evenness;
   options.Repair.Patience = Patience;
+  options.Repair.Facing = Facing;
   const double cells = CountCells(SizesOf(domain, options));
   if (cells > static_cast<double>(this->MostCells))
   {

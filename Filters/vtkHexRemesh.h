@@ -9,7 +9,8 @@
  * untangled and made even with the foldover-free energy of Garanzha et al., then refined and
  * treated again until its cells are as long as wanted. Nodes of the surface slide on it, held by
  * edges that are sharp and by curves where three surfaces meet, and faces of cells are drawn to
- * where the surface is: so that they hold its volume, nodes may leave it by half a voxel. Layers
+ * where the surface is: so that they hold its volume, nodes may leave it by half a voxel. Faces that
+ * see the inside of the segment are turned, or pleats would cover the surface more than once. Layers
  * along the surface become as deep as their cells are long, where the domain has them thinner,
  * since three blocks meet at better angles then; CellsPerBlock leaves them as they are. With block
  * meshes as fourth input only these are resampled and, where that folds cells, untangled.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BlockMeshing.h"
 
+#include "BlockCells.h"
 #include "BlockStart.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "BlockRepair.h"
 
 #include "CornerEnergy.h"
-#include "Domain/DomainLayers.h"
+#include "FacingFaces.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -58,10 +58,12 @@ public:
     const std::vector<Vector3d>& targets, const RepairOptions& options)
     : Fitting(options.Fitting)
     , Evenness(options.Evenness)
+    , FacingWeight(options.Facing)
     , Mesh(mesh)
     , Sliding(sliding)
     , Fit(fit)
     , Targets(targets)
+    , Facing(sliding, mesh, targets)
     , Cells(mesh)
     , Active(mesh.Places.size(), 1)
     , Determinants(this->Cells.Cells.size())
@@ -84,16 +86,24 @@ public:
   double Bluntest = BluntestAtFirst;
 
 private:
-  const double Evenness;
+  const double Evenness, FacingWeight;
+
+  // What the energy around a node is made of.
+  struct NodeTerms
+  {
+    std::vector<CornerTerm> Corners;
+    std::vector<FacingFaces::Term> Faces;
+  };
 
   void Terms(Index node, std::vector<CornerTerm>& terms) const;
-  void Move(Index node, std::vector<CornerTerm>& terms);
+  void Move(Index node, NodeTerms& terms);
   void Spread(Index node);
 
   BlockMesh& Mesh;
   SlidingNodes& Sliding;
   BoundaryFit& Fit;
   const std::vector<Vector3d>& Targets;
+  const FacingFaces Facing;
   BlockCells Cells;
   std::vector<char> Active;
   std::vector<double> Determinants; // the least of each cell, of its target
@@ -121,16 +131,16 @@ void Sweeper::Terms(Index node, std::vector<CornerTerm>& terms) const
   }
 }
 
-void Sweeper::Move(Index node, std::vector<CornerTerm>& terms)
+void Sweeper::Move(Index node, NodeTerms& terms)
 {
   const SlidingNodes::Kind kind = this->Sliding.KindOf(node);
   if (kind == SlidingNodes::Fixed)
   {
     return;
   }
-  this->Terms(node, terms);
+  this->Terms(node, terms.Corners);
   double least = 1.0;
-  for (const CornerTerm& term : terms)
+  for (const CornerTerm& term : terms.Corners)
   {
     least = std::min(least, term.Determinant);
   }
@@ -138,7 +148,7 @@ void Sweeper::Move(Index node, std::vector<CornerTerm>& terms)
   double energy = 0.0;
   Vector3d gradient = Vector3d::Zero();
   Matrix3d hessian = Matrix3d::Zero();
-  for (const CornerTerm& term : terms)
+  for (const CornerTerm& term : terms.Corners)
   {
     const EnergyDerivatives e =
       CornerDerivatives(term.Trace, term.Determinant, epsilon, this->Evenness);
@@ -158,6 +168,20 @@ void Sweeper::Move(Index node, std::vector<CornerTerm>& terms)
     fit = this->Fit.TermOf(node, this->Mesh.Places);
     gradient += this->Fitting * fit.Slope;
     hessian += 2.0 * this->Fitting * fit.Curve;
+  }
+  if (this->FacingWeight > 0.0)
+  {
+    this->Facing.TermsOf(node, this->Mesh.Places, this->Sliding, terms.Faces);
+  }
+  for (const FacingFaces::Term& term : terms.Faces)
+  {
+    const double lack = term.LackAt(Vector3d::Zero());
+    energy += this->FacingWeight * lack * lack;
+    if (lack > 0.0)
+    {
+      gradient -= 2.0 * this->FacingWeight * lack * term.Slope;
+      hessian += 2.0 * this->FacingWeight * term.Slope * term.Slope.transpose();
+    }
   }
   const auto tryStep = [&](int freedom, const Matrix3d& basis)
   {
@@ -180,10 +204,15 @@ void Sweeper::Move(Index node, std::vector<CornerTerm>& terms)
       const Vector3d candidate = this->Sliding.Allowed(node, place + step, foot);
       const Vector3d moved = candidate - place;
       double there = this->Fitting * fit.At(moved);
-      for (const CornerTerm& term : terms)
+      for (const CornerTerm& term : terms.Corners)
       {
         there +=
           CornerEnergy(term.TraceAt(moved), term.DeterminantAt(moved), epsilon, this->Evenness);
+      }
+      for (const FacingFaces::Term& term : terms.Faces)
+      {
+        const double lack = term.LackAt(moved);
+        there += this->FacingWeight * lack * lack;
       }
       if (there < energy * (1.0 - 1e-12))
       {
@@ -241,7 +270,7 @@ void Sweeper::Sweep(bool spreading, double done, const Execution& execution)
       execution.ParallelFor(std::min(MovedAtOnce, count - first),
         [&](Index begin, Index end)
         {
-          std::vector<CornerTerm> terms;
+          NodeTerms terms;
           for (Index i = first + begin; i < first + end; ++i)
           {
             if (!this->Active[nodes[i]])
@@ -328,45 +357,10 @@ double Sweeper::Energy(double epsilon, const Execution& execution) const
         }
       }
     });
-  return std::accumulate(energies.begin(), energies.end(), 0.0);
+  const double facing =
+    this->FacingWeight > 0.0 ? this->Facing.Energy(this->Mesh.Places, this->Sliding) : 0.0;
+  return std::accumulate(energies.begin(), energies.end(), this->FacingWeight * facing);
 }
-}
-
-//------------------------------------------------------------------------------
-CellQuality QualityOf(const BlockMesh& mesh, const Execution& execution)
-{
-  const BlockCells cells(mesh);
-  const std::size_t n = cells.Cells.size();
-  std::vector<double> jacobians(n), least(n), volumes(n);
-  execution.ParallelFor(static_cast<Index>(n),
-    [&](Index begin, Index end)
-    {
-      for (Index c = begin; c < end; ++c)
-      {
-        jacobians[c] = ScaledJacobian(mesh.Places, cells.Cells[c]);
-        least[c] = LeastDeterminant(mesh.Places, cells.Cells[c]);
-        volumes[c] = HexahedronVolume(mesh.Places, cells.Cells[c]);
-      }
-    });
-  std::vector<double> sum(mesh.Sizes.size(), 0.0), count(mesh.Sizes.size(), 0.0);
-  for (std::size_t c = 0; c < n; ++c)
-  {
-    sum[cells.BlockOf[c]] += volumes[c];
-    ++count[cells.BlockOf[c]];
-  }
-  for (std::size_t c = 0; c < n; ++c)
-  {
-    volumes[c] *= count[cells.BlockOf[c]] / sum[cells.BlockOf[c]];
-  }
-  std::sort(volumes.begin(), volumes.end());
-  CellQuality quality;
-  quality.Cells = static_cast<Index>(n);
-  quality.Inverted = std::count_if(least.begin(), least.end(), [](double d) { return !(d > 0.0); });
-  quality.LeastJacobian = *std::min_element(jacobians.begin(), jacobians.end());
-  quality.MeanJacobian = std::accumulate(jacobians.begin(), jacobians.end(), 0.0) / n;
-  quality.LowRatio = volumes[n / 100];
-  quality.HighRatio = volumes[n - 1 - n / 100];
-  return quality;
 }
 
 //------------------------------------------------------------------------------
@@ -374,7 +368,7 @@ void Repair(BlockMesh& mesh, SlidingNodes& sliding, BoundaryFit& fit,
   const std::vector<Vector3d>& targets, const RepairOptions& options, const Execution& execution)
 {
   Sweeper sweeper(mesh, sliding, fit, targets, options);
-  // What the best round ended with.
+  // What the best round ended with, or what smoothing began its last sweep with.
   struct Kept
   {
     Index Inverted;
@@ -396,14 +390,14 @@ void Repair(BlockMesh& mesh, SlidingNodes& sliding, BoundaryFit& fit,
     const Index inverted = sweeper.CountInverted(execution);
     const int since = untangling % SweepsOfRound;
     bool spreading = false;
-    if (inverted > 0 && untangling > 0 && since == 0)
+    if (inverted > 0 && since == 0 && (untangling > 0 || mostUntangling == 0))
     {
       if (!kept || inverted < kept->Inverted)
       {
         kept = Kept{ inverted, mesh.Places, sliding };
       }
       const double most = options.MostInverted * double(sweeper.CountCells());
-      if (untangling >= mostUntangling || double(inverted) > most)
+      if (untangling >= mostUntangling || double(inverted) > most || kept->Inverted == 0)
       {
         mesh.Places = std::move(kept->Places);
         sliding = std::move(kept->Sliding);
@@ -434,6 +428,7 @@ void Repair(BlockMesh& mesh, SlidingNodes& sliding, BoundaryFit& fit,
         break;
       }
       energy = std::min(energy, now);
+      kept = Kept{ 0, mesh.Places, sliding };
       ++smoothing;
       done = std::max(done, untangled + (1.0 - untangled) * smoothing / options.MostSmoothing);
     }

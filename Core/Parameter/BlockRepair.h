@@ -4,7 +4,7 @@
 #ifndef trivariate_BlockRepair_h
 #define trivariate_BlockRepair_h
 
-#include "BlockCells.h"
+#include "BlockQuality.h"
 #include "BoundaryFit.h"
 
 namespace trivariate
@@ -16,27 +16,17 @@ struct RepairOptions
   int MostSmoothing = 40;      ///< sweeps afterwards
   double Fitting = 1000.0;     ///< the weight of BoundaryFit
   double Evenness = 1.0;       ///< the weight of equal volumes beside that of right angles
+  double Facing = 0.0;         ///< the weight of FacingFaces
   double Settled = 1e-3; ///< smoothing ends when sweeps lower the energy by less than this share,
   int Patience = 1;      ///< so many in a row: it may rise where nearest points are found anew
 };
-
-/// How good the cells of a mesh are.
-struct CellQuality
-{
-  Index Cells = 0;
-  Index Inverted = 0;         ///< LeastDeterminant <= 0
-  double LeastJacobian = 0.0; ///< scaled, see ScaledJacobian in DomainLayers.h
-  double MeanJacobian = 0.0;
-  double LowRatio = 0.0, HighRatio = 0.0; ///< of a cell's volume to its block's mean: 1, 99 percent
-};
-
-CellQuality QualityOf(const BlockMesh& mesh, const Execution& execution);
 
 /**
  * Moves the nodes of a mesh, each as SlidingNodes lets it, one after the other, to lower the sum of
  * CornerEnergy over the corners of all cells: first with a regularisation that shrinks until no
  * cell is inverted, and starts anew with each round, then to make them even. Where cells stay
- * inverted, the mesh is that of the round with the fewest. Nodes of one colour move at a time, so
+ * inverted, the mesh is that of the round with the fewest, or the last one without any: smoothing
+ * may fold cells again. Nodes of one colour move at a time, so
  * that the result does not depend on threads. Each move is a Newton step with a line search.
  * targets: of each block, the wanted lengths of its cells.
  */

@@ -345,6 +345,30 @@ TEST(BlockMeshing, KeepsTheRoundWithTheFewestFolds)
   }
 }
 
+// Faces that are drawn to the surface at any price pass through the nodes beneath them.
+TEST(BlockMeshing, KeepsTheLastMeshWithoutFolds)
+{
+  const SurfaceMesh surface =
+    Moved(Icosphere(4), [](const Vector3d& p) { return Vector3d(10.0 * p); });
+  const SegmentDomain ball = FindDomain(surface, DomainOptions(), Execution());
+  const BlockDomain domain = DomainOfSegment(LayeredBlocks(ball, 2.5, Execution()), ball);
+  BlockMeshOptions options;
+  options.CellsPerBlock = 4;
+  BlockMesh mesh = MakeBlockMesh(domain, options, Execution());
+  for (Vector3d& place : mesh.Places)
+  {
+    place *= 1.6;
+  }
+  ASSERT_EQ(QualityOf(mesh, Execution()).Inverted, 0);
+  const DomainSurface walls(domain, 1.0);
+  SlidingNodes sliding(walls, mesh, 7.0);
+  BoundaryFit fit(walls, mesh);
+  options.Repair.Fitting = 1e30;
+  options.Repair.MostRounds = 0;
+  Repair(mesh, sliding, fit, CellTargets(mesh), options.Repair, Execution());
+  EXPECT_EQ(QualityOf(mesh, Execution()).Inverted, 0);
+}
+
 TEST(BlockMeshing, StopsWithinASecond)
 {
   const SurfaceMesh surface =
