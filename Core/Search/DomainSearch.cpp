@@ -78,9 +78,10 @@ struct DomainSearch::Candidate
 };
 
 //------------------------------------------------------------------------------
-DomainSearch::DomainSearch(
-  const SurfaceMesh& mesh, const DomainOptions& options, const Execution& execution)
+DomainSearch::DomainSearch(const SurfaceMesh& mesh, const PosedSurface& posed,
+  const DomainOptions& options, const Execution& execution)
   : Mesh(mesh)
+  , Posed(posed)
   , Options(options)
   , Run(execution)
   , IsSphere(mesh.EulerCharacteristic() == 2)
@@ -153,10 +154,11 @@ std::string DomainSearch::Handles() const
     return "";
   }
   const HandleLoop handle = FindHandle(this->Mesh);
+  const Vector3d place = this->Posed.ToGiven(handle.Place);
   const auto text = [](double x) { return std::to_string(x); };
   return " It has " + std::to_string(1 - this->Mesh.EulerCharacteristic() / 2) +
          " handle(s); a loop around one, " + text(handle.Length) + " long, passes (" +
-         text(handle.Place.x()) + ", " + text(handle.Place.y()) + ", " + text(handle.Place.z()) +
+         text(place.x()) + ", " + text(place.y()) + ", " + text(place.z()) +
          "). Cut or close handles first.";
 }
 

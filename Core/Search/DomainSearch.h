@@ -6,6 +6,7 @@
 
 #include "ChartDomain.h"
 #include "FindDomain.h"
+#include "PosedSurface.h"
 
 #include <memory>
 #include <string>
@@ -15,7 +16,9 @@ namespace trivariate
 class DomainSearch
 {
 public:
-  DomainSearch(const SurfaceMesh& mesh, const DomainOptions& options, const Execution& execution);
+  /// On a posed surface or one of fewer triangles.
+  DomainSearch(const SurfaceMesh& mesh, const PosedSurface& posed, const DomainOptions& options,
+    const Execution& execution);
   ~DomainSearch();
 
   /// Throws std::runtime_error with the reasons where there is none.
@@ -57,6 +60,7 @@ private:
   std::string Handles() const;
 
   const SurfaceMesh& Mesh;
+  const PosedSurface& Posed;
   const DomainOptions& Options;
   const Execution& Run;
   const bool IsSphere;

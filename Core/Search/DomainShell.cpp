@@ -5,9 +5,9 @@
 #include "Domain/DomainLayers.h"
 #include "Domain/InnerCorners.h"
 #include "Domain/InnerPath.h"
-#include "Domain/SurfaceReduction.h"
 #include "Domain/TriangleTree.h"
 #include "Parameter/CoarseHexahedra.h"
+#include "PosedSurface.h"
 
 #include <Eigen/LU>
 
@@ -100,8 +100,8 @@ public:
     : Outer(outer)
     , Core(core)
     , Run(execution)
-    , FewOutside(Reduced(outer, FewTriangles, execution.Part(0.0, 0.1)))
-    , FewInside(Reduced(SurfaceMesh(core.Layout.Points, core.Layout.Triangles), FewTriangles,
+    , FewOutside(ReducedAsPosed(outer, FewTriangles, execution.Part(0.0, 0.1)))
+    , FewInside(ReducedAsPosed(SurfaceMesh(core.Layout.Points, core.Layout.Triangles), FewTriangles,
         execution.Part(0.1, 0.2)))
     , FewCore(this->OnFew(FewInside, core))
   {

@@ -33,11 +33,12 @@ SegmentDomain OnSurface(const SurfaceMesh& mesh, const ReducedSurface& few,
 }
 
 SegmentDomain FindOnFew(
-  const SurfaceMesh& mesh, const DomainOptions& options, const Execution& execution)
+  const PosedSurface& posed, const DomainOptions& options, const Execution& execution)
 {
+  const SurfaceMesh& mesh = posed.Mesh;
   const ReducedSurface few = Reduce(mesh, FewTriangles, execution.Part(0.0, 0.2));
   const Execution run = execution.Part(0.2, 0.8);
-  DomainSearch search(few.Mesh, options, run);
+  DomainSearch search(few.Mesh, posed, options, run);
   const SegmentDomain found = search.Best();
   const double stretch =
     search.FoundCharts() ? StretchInEdges : std::numeric_limits<double>::infinity();
@@ -60,6 +61,22 @@ SegmentDomain FindOnFew(
   }
   return domain;
 }
+
+SegmentDomain FindPosed(
+  const PosedSurface& posed, const DomainOptions& options, const Execution& execution)
+{
+  if (posed.Mesh.NumberOfTriangles() > options.MostTriangles)
+  {
+    return FindOnFew(posed, options, execution);
+  }
+  DomainSearch search(posed.Mesh, posed, options, execution);
+  SegmentDomain domain = search.Best();
+  if (options.Relax && Relax(domain.Layout, domain.Cubes, false, execution.Part(0.85, 1.0)))
+  {
+    search.Measure(domain);
+  }
+  return domain;
+}
 }
 
 //------------------------------------------------------------------------------
@@ -73,16 +90,7 @@ SegmentDomain FindDomain(
     throw std::invalid_argument(
       "The surface has " + std::to_string(pieces) + " pieces; a domain is for one.");
   }
-  if (mesh.NumberOfTriangles() > options.MostTriangles)
-  {
-    return FindOnFew(mesh, options, execution);
-  }
-  DomainSearch search(mesh, options, execution);
-  SegmentDomain domain = search.Best();
-  if (options.Relax && Relax(domain.Layout, domain.Cubes, false, execution.Part(0.85, 1.0)))
-  {
-    search.Measure(domain);
-  }
-  return domain;
+  const PosedSurface posed(mesh);
+  return posed.ToGiven(mesh, FindPosed(posed, options, execution));
 }
 }

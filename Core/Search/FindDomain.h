@@ -43,6 +43,11 @@ struct DomainOptions
  * there and its borders led along on the surface itself (LayoutAlong). Borders of the best one are
  * relaxed if wanted (RelaxedLayout.h).
  *
+ * All this is done on the surface as PosedSurface.h turns and sorts it: neither the order of its
+ * points and triangles nor a translation changes the result, nor a rotation where its principal axes
+ * are unique. Where they are not, as of a surface with fourfold symmetry, a rotation may lead to
+ * another domain that is about as good.
+ *
  * Throws std::invalid_argument for a surface of several pieces, std::runtime_error with the reasons
  * (and the place of a handle) where no domain can be laid out. O(n log n): 5 to 25 s
  * for 1e5 to 5e5 triangles.
