@@ -22,6 +22,9 @@ import trivariate
 
 
 DOMAINS = {"box": "Box", "segments": "Segments", "auto": "Automatic"}
+RESULTS = ("report.json", "report.csv", "model.tspline", "resampled.vti", "hexes.vtu", "bezier.vtu",
+           "segments.vti", "boundary.vtp", "patches.vtp", "domain.vtu", "fields.vti", "hexmesh.vtu",
+           "segments.png", "picture.png")
 
 
 def fail(message):
@@ -85,6 +88,15 @@ def read(volume):
     return source
 
 
+def copy_of(grid):
+    """A source of the grid as it is now, whatever becomes of its file."""
+    copy = grid.NewInstance()
+    copy.ShallowCopy(grid)
+    source = simple.TrivialProducer()
+    source.GetClientSideObject().SetOutput(copy)
+    return source
+
+
 def read_domain(path):
     """The source of cubes and corners: a .json file as given_domain.py describes it, or a grid."""
     if path.endswith(".json"):
@@ -92,15 +104,16 @@ def read_domain(path):
             grid = given_domain.read(path)
         except (OSError, ValueError) as error:
             fail(f"'{path}' is no domain: {error}")
-        source = simple.TrivialProducer()
-        source.GetClientSideObject().SetOutput(grid)
-        return source
-    source = simple.OpenDataFile(path)
+        return copy_of(grid)
+    try:
+        source = simple.OpenDataFile(path)
+    except RuntimeError as error:
+        fail(f"ParaView cannot read '{path}': {error}")
     if source is not None:
         source.UpdatePipeline()
     if source is None or not isinstance(output_of(source), vtkUnstructuredGrid):
         fail(f"'{path}' is no domain: it has to be a .json file or an unstructured grid")
-    return source
+    return copy_of(output_of(source))
 
 
 def choose_array(image, wanted):
@@ -335,10 +348,10 @@ def main():
     def path(name):
         return os.path.join(options.output, name)
 
-    for old in ("report.json", "segments.vti", "boundary.vtp", "patches.vtp", "domain.vtu",
-                "fields.vti", "hexmesh.vtu", "segments.png"):
-        if os.path.exists(path(old)):
-            os.remove(path(old))  # the first stands for all results; the others may not come anew
+    results = [path(name) for name in RESULTS if os.path.exists(path(name))]
+    if options.volume and any(os.path.samefile(options.volume, old) for old in results):
+        fail(f"the volume '{options.volume}' is one of the results that this call replaces; "
+             "choose another folder with --output, or move the file")
     source = step("read", read, options.volume)
     name = choose_array(output_of(source), options.array)
     segments = Segments()
@@ -350,6 +363,8 @@ def main():
         RMSTolerance=options.tolerance,
         MaximumNumberOfControlPoints=options.control_points or 50000)
     step("fit", run, fit, "the fit")
+    for old in results:
+        os.remove(old)  # not before: with bad input they stay; some may not come anew
     step("write", save, path("model.tspline"), fit)
     model = step("read_back", read_back, path("model.tspline"))
     if options.domain != "box":

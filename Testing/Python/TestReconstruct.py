@@ -6,6 +6,7 @@ import json
 import math
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 
@@ -192,8 +193,11 @@ def test_given_domain():
     pathlib.Path("corners.json").write_text(json.dumps({"segments": [
         {"segment": 1, "cubes": size,
          "corners": [[*at, *map(float, place)] for at, place in corners.items()]}]}))
+    # A domain.vtu that an earlier call wrote may be in the folder of the results.
+    os.makedirs("given", exist_ok=True)
+    shutil.copy("results/domain.vtu", "given")
     points = {}
-    for file in ("results/domain.vtu", "corners.json"):
+    for file in ("given/domain.vtu", "corners.json"):
         done = run("--output", "given", "--control-points", "2500", "--domain", file,
                    "--segments", "2")
         assert done.returncode == 0, done.stdout + done.stderr
@@ -213,8 +217,14 @@ def test_given_domain():
         data = grid.GetOutput().GetPointData()
         blocks = vtk_to_numpy(data.GetArray("Block"))[vtk_to_numpy(data.GetArray("Segment")) == 1]
         points[file] = len(blocks), len(set(blocks))
-    assert points["results/domain.vtu"][1] >= 7  # layers
+    assert points["given/domain.vtu"][1] >= 7  # layers
     assert points["corners.json"][1] == 1, points  # cubes alone
+
+
+def files_of(folder):
+    """Name, time and size of every file."""
+    return {file.name: (file.stat().st_mtime_ns, file.stat().st_size)
+            for file in pathlib.Path(folder).iterdir()}
 
 
 def test_given_faults():
@@ -237,17 +247,20 @@ def test_given_faults():
             ("Segment 7 of the given domain", {"segments": [{**one, "segment": 7}]})):
         pathlib.Path("bad.json").write_text(content if isinstance(content, str)
                                             else json.dumps(content))
-        done = run("--output", "bad", "--domain", "bad.json", "--segments", "2")
+        before = files_of("given")
+        done = run("--output", "given", "--domain", "bad.json", "--segments", "2")
         said = done.stdout + done.stderr
         assert done.returncode != 0 and "Traceback" not in said, said
         assert "error:" in said and words in said, (words, said)
-        assert not os.path.exists("bad/report.json")
-    done = run("--output", "bad", "--domain", "results/resampled.vti")
-    assert done.returncode != 0 and "an unstructured grid" in done.stderr, done.stderr
+        assert files_of("given") == before, words
 
 
 def test_faults():
-    pathlib.Path("text.vti").write_text("not an image\n")
+    """Each is told in a sentence, and the results of an earlier call stay as they are."""
+    shutil.rmtree("faults", ignore_errors=True)
+    shutil.copytree("results", "faults")
+    for name in ("text.vti", "text.vtu", "text.domain"):
+        pathlib.Path(name).write_text("not what it is called\n")
     pathlib.Path("file").write_text("")
     for words, *arguments in (
             ("unknown option", "--frobnicate"),
@@ -261,11 +274,17 @@ def test_faults():
             ("cannot be made", "--output", "file/below"),
             ("cannot read", "text.vti"),
             ("no point array 'absent'; it has: ", "results/resampled.vti", "--array", "absent"),
-            ("no volume image", "results/hexes.vtu")):
+            ("no volume image", "results/hexes.vtu"),
+            ("one of the results that this call replaces", "faults/segments.vti"),
+            ("one of the results that this call replaces", "faults/../faults/resampled.vti"),
+            ("an unstructured grid", "--domain", "results/resampled.vti"),
+            ("cannot read 'text.vtu'", "--domain", "text.vtu"),
+            ("cannot read 'text.domain'", "--domain", "text.domain")):
+        before = files_of("faults")
         done = run("--output", "faults", *arguments)
         assert done.returncode != 0 and "Traceback" not in done.stderr, done.stderr
         assert "error:" in done.stderr and words in done.stderr, (words, done.stderr)
-        assert not os.path.exists("faults/report.json")
+        assert files_of("faults") == before, words
 
 
 test_results()
