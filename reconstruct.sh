@@ -12,7 +12,8 @@
 #   --array NAME        point array to fit; default is the active one, or else the first
 #   --tolerance T       stop when the RMS error is at most T percent of the array's range;
 #                       default is 0.1, or no limit when --control-points is given
-#   --control-points N  stop before there are more than N control points; default is 50000
+#   --control-points N  stop before there are more than N control points, those that cubes share
+#                       counted once (distinct_control_points of report.json); default is 50000
 #   --segments K        split the volume into K materials by texture and density; default is 0, as
 #                       many as it seems to have. That writes segments.vti, boundary.vtp and
 #                       segments.png; and, of segments for which there is a domain of cubes,

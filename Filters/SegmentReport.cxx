@@ -104,15 +104,13 @@ RoundTrip EvaluateImage(
   {
     vtkNew<vtkIntArray> labels;
     labels->SetName("Segment");
-    const Index count = input.Labels < 0 ? 0 : input.Image.Count();
+    const Index count = input.Image.Count();
     labels->SetNumberOfTuples(count);
     for (Index i = 0; i < count; ++i)
     {
-      labels->SetValue(
-        i, static_cast<int>(input.Image.Values[input.Labels * input.Image.Count() + i]));
+      labels->SetValue(i, static_cast<int>(input.Image.Values[input.Labels * count + i]));
     }
-    FillPointsOfSegments(
-      view, count > 0 ? labels.Get() : nullptr, trip.Image, execution.Part(0.1, 1.0));
+    FillPointsOfSegments(view, labels, trip.Image, execution.Part(0.1, 1.0));
   }
   else
   {
@@ -235,6 +233,7 @@ ReportRow MakeRow(const ReportInput& input, int segment, const Errors& errors,
     errors.Known == errors.Voxels ? 100.0 * std::sqrt(errors.OwnSquares / n) : NaN;
   numbers["Corners"] = CountCorners(input.Surfaces, cubed);
   numbers["ControlPoints"] = facts.ControlPoints;
+  numbers["DistinctControlPoints"] = facts.DistinctControlPoints;
   numbers["RoundTripRMSPercent"] = 100.0 * rms;
   numbers["FoundPercent"] = 100.0 * static_cast<double>(errors.Found) / n;
   numbers["MaximumErrorPercent"] = 100.0 * errors.Largest;
@@ -258,9 +257,10 @@ ReportRow MakeRow(const ReportInput& input, int segment, const Errors& errors,
 const std::vector<std::string>& ReportColumns()
 {
   static const std::vector<std::string> columns = { "Segment", "Voxels", "RMSPercent", "Corners",
-    "ControlPoints", "RoundTripRMSPercent", "FoundPercent", "MaximumErrorPercent", "PSNRDecibels",
-    "HausdorffVoxels", "GradientJumpPercent", "MinimumScaledJacobian", "InvertedCells", "Blocks",
-    "NumbersStored", "SplineBytes", "LabelBytes", "RawBytes", "ZLibBytes", "Seconds", "Domain" };
+    "ControlPoints", "DistinctControlPoints", "RoundTripRMSPercent", "FoundPercent",
+    "MaximumErrorPercent", "PSNRDecibels", "HausdorffVoxels", "GradientJumpPercent",
+    "MinimumScaledJacobian", "InvertedCells", "Blocks", "NumbersStored", "SplineBytes",
+    "LabelBytes", "RawBytes", "ZLibBytes", "Seconds", "Domain" };
   return columns;
 }
 
@@ -273,6 +273,11 @@ std::vector<ReportRow> MakeReport(const ReportInput& input, const Execution& exe
   const double* values = input.Image.Values.data();
   const auto [low, high] = std::minmax_element(values, values + input.Image.Count());
   const double range = *high > *low ? *high - *low : 1.0;
+  int component = 0; // of the array, among those of all attributes
+  for (int a = 0; a < input.Attribute; ++a)
+  {
+    component += input.Model.Attributes[a].Components;
+  }
   const double scalarBytes = vtkDataArray::GetDataTypeSize(input.ScalarType);
 
   const std::vector<std::int32_t> segments = SegmentsOf(model);
@@ -302,22 +307,26 @@ std::vector<ReportRow> MakeReport(const ReportInput& input, const Execution& exe
     {
       const TSplineModel fitted = several ? SegmentPart(model, segment) : model;
       const BezierMesh mesh(fitted.Spline, part.Part(0.2, 0.25));
-      const LastRound last = LastRoundOf(input.Rounds, segment);
+      const LastRound last = LastRoundOf(input.Rounds, segment, component);
       if (several || rows.empty())
       {
         const TSplineModel stored = several ? SegmentPart(input.Model, segment) : input.Model;
-        facts = DescribeSpline(
-          stored, mesh, several ? segment : segments.front(), input, part.Part(0.25, 0.8));
-        facts.GradientJump = facts.Affine ? 0.0 : last.GradientJump / range;
+        const int whose = several ? segment : segments.front();
+        facts = DescribeSpline(stored, mesh, whose, input, part.Part(0.25, 0.8));
+        facts.GradientJump =
+          facts.Affine ? 0.0 : LastRoundOf(input.Rounds, whose, component).GradientJump / range;
         totalFacts.Add(facts);
       }
       const SplineFacts& described = several ? facts : totalFacts;
       domain = DomainOf(described, several, last);
+      // A fit over a domain moves the parameters of voxels: its own word comes before the array's.
+      const bool isTold = IsOverCubes(domain) && !std::isnan(last.Rms);
       const std::vector<double> ownValues =
-        input.Parameter < 0 ? std::vector<double>()
-                            : EvaluateOwn(input, fitted, mesh, own, part.Part(0.8, 1.0));
+        input.Parameter < 0 || described.Affine || isTold
+          ? std::vector<double>()
+          : EvaluateOwn(input, fitted, mesh, own, part.Part(0.8, 1.0));
       errors = Compare(input, trip, range, described.Affine, own, ownValues);
-      if (IsOverCubes(domain) && ownValues.empty() && !std::isnan(last.Rms))
+      if (isTold)
       {
         errors.Known = errors.Voxels;
         errors.OwnSquares = std::pow(last.Rms / range, 2) * static_cast<double>(errors.Voxels);
@@ -349,8 +358,7 @@ std::vector<ReportRow> MakeReport(const ReportInput& input, const Execution& exe
     const double* labels = values + input.Labels * input.Image.Count();
     std::vector<Index> everywhere(input.Image.Count());
     std::iota(everywhere.begin(), everywhere.end(), Index(0));
-    labelBytes =
-      input.Labels < 0 ? 0.0 : DeflatedBytes(labels, everywhere, VTK_INT, execution.Part(1.0, 1.0));
+    labelBytes = DeflatedBytes(labels, everywhere, VTK_INT, execution.Part(1.0, 1.0));
   }
   rows.push_back(
     MakeRow(input, AllSegments, total, totalFacts, allCubed, totalRaw, totalDeflated, labelBytes));

@@ -26,8 +26,10 @@ struct ReportInput
   /// Attributes: the array to compare, then those of Labels, Parameter and ParameterMask that are
   /// there.
   ImageSamples Image;
-  int Labels = -1, Parameter = -1, Mask = -1; ///< first block of each in Image.Values; -1: none
-  int ScalarType = 0;                         ///< VTK's, of the array to compare
+  /// First block of each in Image.Values; -1: none, which Labels are not where the model has
+  /// several segments.
+  int Labels = -1, Parameter = -1, Mask = -1;
+  int ScalarType = 0;              ///< VTK's, of the array to compare
   vtkImageData* Lattice = nullptr; ///< without arrays: origin, spacing, direction, extent
   TSplineModel Model;              ///< as it would be stored
   int Attribute = 0;               ///< of the model, to compare; one component

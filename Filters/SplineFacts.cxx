@@ -11,6 +11,7 @@
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkFieldData.h"
 #include "vtkIdList.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
@@ -31,17 +32,15 @@ namespace
 constexpr int FileCompression = 5; // the writer's default
 
 //------------------------------------------------------------------------------
-// Geometry and attributes; equal control points, which glued blocks share, once. An affine geometry
-// is twelve numbers.
-double CountNumbers(const TSpline& spline, bool affine)
+// Equal control points, which glued blocks share, once.
+double CountDistinct(const TSpline& spline)
 {
   std::set<std::vector<double>> rows;
   for (Index i = 0; i < spline.Size(); ++i)
   {
     rows.emplace(spline.ControlPoint(i), spline.ControlPoint(i) + spline.Components);
   }
-  const double count = static_cast<double>(rows.size());
-  return affine ? 12.0 + count * (spline.Components - 3) : count * spline.Components;
+  return static_cast<double>(rows.size());
 }
 
 // In units of voxels.
@@ -71,6 +70,28 @@ TSpline InHandednessOf(const ImageSamples& image, TSpline spline)
   return spline;
 }
 
+//------------------------------------------------------------------------------
+LastRound LastRoundOverDomain(vtkFieldData* field, int segment, int component)
+{
+  LastRound last;
+  vtkDataArray* segments = field->GetArray("FittedSegment");
+  vtkDataArray* errors = field->GetArray("FittedSegmentRMS");
+  vtkDataArray* ranges = field->GetArray("FittedRange");
+  vtkDataArray* jump = field->GetArray("GradientJump");
+  const bool isTold =
+    segments && errors && ranges && jump && component < ranges->GetNumberOfComponents();
+  for (vtkIdType i = 0; isTold && i < segments->GetNumberOfTuples(); ++i)
+  {
+    if (static_cast<int>(segments->GetTuple1(i)) == segment)
+    {
+      const double range = ranges->GetComponent(0, component);
+      last.Rms = errors->GetTuple1(i) / 100.0 * range;
+      last.GradientJump = jump->GetComponent(0, 0) * range;
+    }
+  }
+  return last;
+}
+
 template <typename Choose>
 void Merge(double& mine, double other, const Choose& choose)
 {
@@ -84,6 +105,7 @@ void SplineFacts::Add(const SplineFacts& other)
   const auto sum = [](double a, double b) { return a + b; };
   this->Affine = other.Affine;
   Merge(this->ControlPoints, other.ControlPoints, sum);
+  Merge(this->DistinctControlPoints, other.DistinctControlPoints, sum);
   Merge(this->NumbersStored, other.NumbersStored, sum);
   Merge(this->Blocks, other.Blocks, sum);
   Merge(this->Bytes, other.Bytes, sum);
@@ -161,9 +183,10 @@ double SecondsOf(vtkTable* rounds, int segment)
 }
 
 //------------------------------------------------------------------------------
-LastRound LastRoundOf(vtkTable* rounds, int segment)
+LastRound LastRoundOf(vtkTable* rounds, int segment, int component)
 {
-  LastRound last;
+  LastRound last =
+    rounds ? LastRoundOverDomain(rounds->GetFieldData(), segment, component) : LastRound();
   const bool isTold = rounds && rounds->GetColumnByName("Segment") &&
                       rounds->GetColumnByName("Domain") && rounds->GetColumnByName("Range");
   for (vtkIdType row = 0; isTold && row < rounds->GetNumberOfRows(); ++row)
@@ -195,7 +218,10 @@ SplineFacts DescribeSpline(const TSplineModel& part, const BezierMesh& mesh, int
   facts.MinimumScaledJacobian = jacobian.Minimum;
   facts.InvertedCells = static_cast<double>(jacobian.Inverted);
   facts.Affine = jacobian.Constant && facts.Blocks == 1.0;
-  facts.NumbersStored = CountNumbers(part.Spline, facts.Affine);
+  const double distinct = CountDistinct(part.Spline);
+  facts.DistinctControlPoints = distinct;
+  const int components = part.Spline.Components; // X, Y, Z and the attributes
+  facts.NumbersStored = facts.Affine ? 12.0 + distinct * (components - 3) : distinct * components;
   // The box that an image's index space is has no boundary in common with a segment.
   if (input.Surfaces && !facts.Affine)
   {

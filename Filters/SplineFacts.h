@@ -30,7 +30,8 @@ struct SplineFacts
 {
   static constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
   double ControlPoints = NaN;
-  double NumbersStored = NaN; ///< equal control points once; an affine geometry is twelve numbers
+  double DistinctControlPoints = NaN; ///< those that glued blocks share once
+  double NumbersStored = NaN; ///< of distinct control points; an affine geometry is twelve numbers
   double Blocks = NaN;
   double Bytes = NaN;
   double MinimumScaledJacobian = NaN; ///< as JacobianRange, above 0 for the image's own handedness
@@ -53,7 +54,8 @@ double CountCorners(vtkPolyData* surface, const std::set<int>& segments);
 /// The last row of a segment in the table of rounds, or the sum over segments (AllSegments).
 double SecondsOf(vtkTable* rounds, int segment);
 
-/// What the rounds tell of the fit that a segment ended with.
+/// What the rounds tell of the fit that a segment ended with: those of vtkTSplineReconstruction, or
+/// of vtkTSplineFit over a domain, which do not tell the domain.
 struct LastRound
 {
   std::string Domain;                     ///< over what it was fitted; empty: not known
@@ -61,7 +63,8 @@ struct LastRound
   double GradientJump = SplineFacts::NaN; ///< likewise, a voxel
 };
 
-LastRound LastRoundOf(vtkTable* rounds, int segment);
+/// The component is that of the array among those of all attributes that were fitted.
+LastRound LastRoundOf(vtkTable* rounds, int segment, int component);
 
 /// Of a .tspline file as vtkTSplineWriter writes it.
 double StoredBytes(const TSplineModel& model, const Execution& execution);

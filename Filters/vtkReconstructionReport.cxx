@@ -106,6 +106,20 @@ int FindAttribute(const TSplineModel& model, const std::string& name)
 }
 
 //------------------------------------------------------------------------------
+// Splines of several segments overlap in space.
+void CheckLabels(const ReportInput& input)
+{
+  const std::size_t count = SegmentsOf(input.Model).size();
+  if (count > 1 && input.Labels < 0)
+  {
+    throw std::invalid_argument(
+      "The T-spline has " + std::to_string(count) +
+      " segments, but the image has no point array \"Segment\" that tells which of them a voxel "
+      "belongs to; take the output Segments of T-Spline Reconstruction, or choose Labels.");
+  }
+}
+
+//------------------------------------------------------------------------------
 void CheckFinite(const ImageSamples& image)
 {
   const auto end = image.Values.begin() + image.Count();
@@ -254,6 +268,7 @@ int vtkReconstructionReport::RequestData(
       }
       CheckFinite(input.Image);
       input.Model = TSplineFromGrid(grid);
+      CheckLabels(input);
       input.Attribute = FindAttribute(input.Model, input.Image.Attributes[0].Name);
       vtkNew<vtkImageData> lattice;
       lattice->CopyStructure(image);

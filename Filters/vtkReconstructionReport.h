@@ -13,30 +13,36 @@
  * Port 0: a vtkImageData. The point array to compare, one component of any real type, is chosen
  * with SetInputArrayToProcess(0, ...); the T-spline must have an attribute of the same name. The
  * point array of labels, whole numbers, is chosen with SetInputArrayToProcess(1, ...), by default
- * "Automatic": the one called Segment, or else all voxels are one segment. If there is a point
- * array Parameter (3 components), it says where in the spline's parameter space a voxel lies, where
- * an array ParameterMask, if there is one, is not zero.
+ * "Automatic": the one called Segment, or else all voxels are one segment; that is an error where
+ * the spline has several, whose splines overlap in space. If there is a point array Parameter (3
+ * components), it says where in the spline's parameter space a voxel lies, where an array
+ * ParameterMask, if there is one, is not zero.
  * Port 1: the T-spline grid. The control points' array Segment tells whose spline is whose; a
  * spline of one segment stands for all voxels.
  * Port 2 (optional): vtkPolyData, the surfaces of the segments, by vtkSegmentBoundary or (patches)
  * vtkPolycubeDomain.
  * Port 3 (optional): vtkTable, the rounds of the fit; of its columns Seconds, RMS, Range,
- * GradientJump and Domain the last row of each segment (column Segment, if there is one) counts.
+ * GradientJump and Domain the last row of each segment (column Segment, if there is one) counts; of
+ * vtkTSplineFit over a domain the field data FittedSegmentRMS, FittedRange and GradientJump.
  *
  * @par Output
  * Port 0: vtkTable with one row a segment, ascending, and one with Segment -1 for all. Columns are
  * double but for the first two and the last; NaN where a number is not known.
  * - Segment (int), Voxels (vtkIdType);
  * - RMSPercent: 100 x root mean square error / range of the image's array at the voxels' own
- *   parameters: those of Parameter, or where the geometry of the spline is affine, as under a fit
- *   without domain, those of the round trip; of a segment over cubes without an array Parameter
- * what vtkTSplineReconstruction's rounds (port 3) end with. NaN when a voxel has none;
+ *   parameters. Where the geometry of the spline is affine, as under a fit without domain, they are
+ *   those of the round trip. Over cubes the fit moves them from where the array Parameter has them:
+ *   the rounds (port 3) tell what it ended with, over the voxels that were fitted (of several
+ *   attributes at once, that of the worst one); without rounds those of Parameter count. NaN
+ *   where neither tells, a voxel has no parameters, or is not found in a box;
  * - Corners: of the polycubes on the surfaces (port 2 with the point array CornerId) of segments
  * that were fitted over cubes; NaN where none was;
- * - ControlPoints: blending functions;
+ * - ControlPoints: blending functions, points of the grid; DistinctControlPoints: those that glued
+ *   blocks share once, as fits and their limits count them;
  * - RoundTripRMSPercent, MaximumErrorPercent: of the round trip, in percent of the same range;
  *   FoundPercent: share of the voxels found by the inverse map, in a spline of several segments
- * also those that lie up to 1.5 voxels outside of theirs and take the value at its nearest point;
+ *   also those that lie outside of theirs by up to 1.5 times the largest of the voxels' three
+ *   spacings, and take the value at its nearest point;
  * - PSNRDecibels: -20 log10 of the round trip's RMS as a share of the range;
  * - HausdorffVoxels: Hausdorff distance of the spline's boundary and the segment's surface (port
  *   2), in units of voxels; the largest one in total. NaN for an affine geometry, whose boundary is
@@ -48,8 +54,9 @@
  *   its columns, in [-1, 1], at 3^3 points of each Bezier cell; InvertedCells: cells where it is
  *   not above zero. In an image whose indices are a left hand the sign is turned;
  * - Blocks: groups of cubes, the values of Block;
- * - NumbersStored: coordinates and attributes of control points, equal points (which glued blocks
- *   share) once, and twelve numbers in place of the coordinates where the geometry is affine;
+ * - NumbersStored: coordinates and attributes of the distinct control points, and twelve numbers in
+ *   place of the coordinates where the geometry is affine. A fit over a domain finds those on a
+ *   coarser net, which a file does not have; its NumbersFitted are fewer;
  * - SplineBytes: of the .tspline file that vtkTSplineWriter writes, with all attributes; LabelBytes
  *   (total only): of the labels deflated, which the image is written back with where a spline has
  *   several segments; RawBytes, ZLibBytes: of the voxels, as they are and deflated by
@@ -74,8 +81,8 @@
  *
  * @par Errors
  * An image without points or without the chosen array, with more than one component, NaN or
- * infinity, labels that are no whole numbers; a grid that is no T-spline or has no attribute of
- * that name; too little memory.
+ * infinity, labels that are no whole numbers or, for a spline of several segments, none; a grid
+ * that is no T-spline or has no attribute of that name; too little memory.
  *
  * @sa vtkTSplineFit vtkTSplineSource vtkTSplineReconstruction
  */

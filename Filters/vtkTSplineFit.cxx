@@ -88,7 +88,7 @@ void ReportShape(const BlockFitResult& result, Index voxels, double spacing, vtk
   AddNumbers<vtkIdTypeArray>(field, "ShapeControlPoints", { number(result.ShapePoints) });
   AddNumbers<vtkDoubleArray>(
     field, "ShapeDistance", { result.ShapeRms / spacing, result.ShapeMaximum / spacing });
-  AddNumbers<vtkIdTypeArray>(field, "NumbersStored", { number(result.NumbersStored) });
+  AddNumbers<vtkIdTypeArray>(field, "NumbersFitted", { number(result.NumbersFitted) });
   AddNumbers<vtkIdTypeArray>(
     field, "VoxelsInside", { number(result.VoxelsInside), number(voxels) });
   AddNumbers<vtkIdTypeArray>(field, "VoxelsNear", { number(result.VoxelsNear) });
@@ -104,6 +104,7 @@ void ReportShape(const BlockFitResult& result, Index voxels, double spacing, vtk
   }
   field->AddArray(segments);
   field->AddArray(errors);
+  AddNumbers<vtkDoubleArray>(field, "FittedRange", result.Ranges);
   AddNumbers<vtkDoubleArray>(field, "GradientJump", { result.Jump.Rms, result.Jump.Maximum });
   AddNumbers<vtkIdTypeArray>(field, "ShapeCells",
     { number(result.Folds.Cells), number(result.Folds.Folded), number(result.Folds.Certified) });

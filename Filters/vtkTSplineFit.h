@@ -49,17 +49,18 @@
  * attributes the worst counts. The last row belongs to the output. Over a domain control points are
  * counted once for all functions that share them, rows are the rounds of the attributes, and the
  * field data has ShapeControlPoints (vtkIdType), ShapeDistance (double x 2: root mean square and
- * largest distance of the spline from where its surface is wanted, in voxels), NumbersStored
+ * largest distance of the spline from where its surface is wanted, in voxels), NumbersFitted
  * (vtkIdType: three for each control point of the shape and one a component of the attributes for
- * each of all control points), VoxelsInside (vtkIdType
+ * each of all control points; a file has the places of all), VoxelsInside (vtkIdType
  * x 2: voxels that the shape passes through, of how many), VoxelsNear (vtkIdType: others, up to
  * half a voxel away from it, which take their nearest point), SmallestJacobian (double: least
  * determinant of d(X, Y, Z)/d(u, v, w), in parts of its mean), FittedSegment (int32) and
  * FittedSegmentRMS (double, percent of the range as RMS: the last round's in each of them),
- * ShapeCells (vtkIdType x 3: Bezier
- * cells of the shape, those with a fold, those proven to have none) and GradientJump (double x 2:
- * root mean square and largest jump of an attribute's gradient in space across faces inside of a
- * segment that are joined by common control points only, in parts of its range a voxel).
+ * FittedRange (double, a component for each of the attributes': the range of the voxels that
+ * count), ShapeCells (vtkIdType x 3: Bezier cells of the shape, those with a fold, those proven to
+ * have none) and GradientJump (double x 2: root mean square and largest jump of an attribute's
+ * gradient in space across faces inside of a segment that are joined by common control points only,
+ * in parts of its range a voxel).
  *
  * @par Cost
  * About 100 bytes a voxel for one component and 6 kB a control point at the peak, of which the copy

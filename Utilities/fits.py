@@ -251,7 +251,7 @@ def print_rows(folder, argument, share, with_baselines):
             continue
         write_spline(grid, folder / f"{stem_of(volume, edge)}_{count}.tspline")
         squares, found = errors_of(grid, image)
-        numbers = int(field_of(table, "NumbersStored"))
+        numbers = int(field_of(table, "NumbersFitted"))
         distance, cells = field_of(table, "ShapeDistance"), field_of(table, "ShapeCells")
         inside, of = field_of(table, "VoxelsInside")
         near = int(field_of(table, "VoxelsNear"))
@@ -275,7 +275,7 @@ parser.add_argument("--share", type=float, default=0.25, help="Shape Share; defa
 parser.add_argument("folder", type=pathlib.Path)
 parser.add_argument("runs", nargs="+", metavar="VOLUME=THRESHOLDS:EDGE:COUNTS")
 arguments = parser.parse_args()
-print("| segment | control points | shape | numbers stored | RMS | RMS, inside | inside, near | ramp, "
+print("| segment | control points | shape | numbers fitted | RMS | RMS, inside | inside, near | ramp, "
       "core | distance of the shape: RMS, largest | its cells: folded / not proven / all | identity, "
       "as many points | as many numbers | with depth | whole box | CPU s |")
 print("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|")

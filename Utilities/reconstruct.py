@@ -393,6 +393,7 @@ def main():
     report = {
         "voxels": int(measured["Voxels"]),
         "control_points": int(measured["ControlPoints"]),
+        "distinct_control_points": int(measured["DistinctControlPoints"]),
         "numbers_stored": int(measured["NumbersStored"]),
         "tmesh_cells": count_cells(model),
         "bezier_cells": output_of(bezier).GetNumberOfCells(),

@@ -97,7 +97,7 @@ public:
     const SharedPoints shared = this->Layout.Share(this->Result.Spline, Sharing::Attributes);
     this->Result.PointOf = shared.PointOf;
     this->Result.ControlPoints = shared.Count();
-    this->Result.NumbersStored =
+    this->Result.NumbersFitted =
       3 * this->Result.ShapePoints + samples.Components * this->Result.ControlPoints;
     for (const BlendingFunction& f : this->Result.Spline.Functions)
     {
@@ -199,6 +199,7 @@ private:
     {
       this->FollowData(stage, samples, target, shape, *rule);
     }
+    this->Result.Ranges = stage.Scales;
     this->Result.SegmentRms = RmsOfSegments(this->Blocks, samples, system, stage.Scales);
     this->Result.Jump = WorstGradientJump(this->Blocks, this->Result.Spline, system.Mesh(),
       stage.Scales, this->Options.Spacing, this->Run);

@@ -86,10 +86,12 @@ struct BlockFitResult
   Index ControlPoints = 0;    ///< distinct ones
   std::vector<FitRound> Rounds;
   std::map<int, double> SegmentRms; ///< of the last round, each segment's, as FitRound::Rms
+  std::vector<double> Ranges;       ///< of each attribute, of which errors are parts
   Index ShapePoints = 0;            ///< distinct control points that the shape was fitted with
-  /// The numbers that the spline consists of beside its knots: three for each control point of the
-  /// shape, which later splits only carry along, and the attributes of all control points.
-  Index NumbersStored = 0;
+  /// The numbers that were solved for: three for each control point of the shape, which later
+  /// splits only carry along, and the attributes of all control points. A file has the places of
+  /// all.
+  Index NumbersFitted = 0;
   double ShapeRms = 0.0, ShapeMaximum = 0.0; ///< distance from where the surface is wanted
   Index VoxelsInside = 0;                    ///< voxels that the shape passes through
   Index VoxelsNear = 0; ///< others, up to half of Spacing away; they have their nearest point

@@ -73,7 +73,7 @@ TEST(BlockFit, SlidesOnTheSurface)
   EXPECT_LT(sliding.ShapePoints, 300);
   EXPECT_EQ(sliding.VoxelsInside, ball.Voxels.Count());
   EXPECT_GT(sliding.Folds.SmallestJacobian, 0.0);
-  EXPECT_EQ(sliding.NumbersStored, 3 * sliding.ShapePoints + sliding.ControlPoints);
+  EXPECT_EQ(sliding.NumbersFitted, 3 * sliding.ShapePoints + sliding.ControlPoints);
   nodes.Surface.clear();
   const BlockFitResult fixed = fit(nodes);
   EXPECT_GT(fixed.ShapePoints, 400);

@@ -44,6 +44,7 @@ TEST(ReconstructionReport, OfTheImageThatASplineIsHasNoErrors)
     }
     EXPECT_GT(Cell(report, row, "PSNRDecibels"), 250.0);
     EXPECT_EQ(Cell(report, row, "ControlPoints"), n);
+    EXPECT_EQ(Cell(report, row, "DistinctControlPoints"), n);
     EXPECT_EQ(Cell(report, row, "NumbersStored"), n + 12.0); // the geometry is affine
     EXPECT_EQ(Cell(report, row, "Blocks"), 1.0);
     EXPECT_EQ(DomainIn(report, row), "ImageBox");

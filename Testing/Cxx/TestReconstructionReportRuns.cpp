@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "BallDomain.h"
 #include "ErrorLog.h"
 #include "ReportChecks.h"
 #include "vtkTSplineFit.h"
@@ -15,6 +16,16 @@
 #include <limits>
 
 using namespace trivariate;
+
+namespace
+{
+double RangeOf(vtkImageData* image)
+{
+  double range[2];
+  image->GetPointData()->GetScalars()->GetRange(range);
+  return range[1] - range[0];
+}
+}
 
 //------------------------------------------------------------------------------
 // A ball of two shells fitted by vtkTSplineFit under a mask, its indices a left hand.
@@ -65,6 +76,73 @@ TEST(ReconstructionReport, AgreesWithTheFit)
   EXPECT_NEAR(Cell(report, 1, "RMSPercent"), scaled, 1e-6 * scaled);
   EXPECT_EQ(Cell(report, 1, "FoundPercent"), 100.0);
   EXPECT_NEAR(Cell(report, 2, "MinimumScaledJacobian"), 1.0, 1e-9);
+}
+
+//------------------------------------------------------------------------------
+// A fit over a domain moves the parameters of voxels away from where the array has them; what it
+// ends with is told by its rounds, and is that of the round trip.
+TEST(ReconstructionReport, TakesErrorsOverADomainFromTheFit)
+{
+  const trivariate_testing::BallDomain ball(24);
+  vtkNew<vtkImageData> image;
+  image->ShallowCopy(ball.Image);
+  vtkDataArray* mask = image->GetPointData()->GetArray("ParameterMask");
+  vtkNew<vtkIntArray> labels;
+  labels->SetName("Segment");
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    labels->InsertNextValue(mask->GetTuple1(i) != 0.0);
+  }
+  image->GetPointData()->AddArray(labels);
+  vtkNew<vtkTSplineFit> fit;
+  fit->SetInputData(0, image);
+  fit->SetInputData(1, ball.Polycube);
+  fit->SetInputData(2, ball.Meshes);
+  fit->SetMaximumNumberOfControlPoints(1000);
+  vtkNew<vtkReconstructionReport> report;
+  report->SetInputData(image);
+  report->SetTSplineConnection(fit->GetOutputPort());
+  report->SetRoundsConnection(fit->GetOutputPort(1));
+  report->Update();
+  ASSERT_EQ(report->GetOutput()->GetNumberOfRows(), 3);
+  vtkTable* rounds = vtkTable::SafeDownCast(fit->GetOutputDataObject(1));
+  vtkFieldData* field = rounds->GetFieldData();
+  const double wanted = field->GetArray("FittedSegmentRMS")->GetTuple1(0) *
+                        field->GetArray("FittedRange")->GetTuple1(0) / RangeOf(image);
+  EXPECT_NEAR(Cell(report, 1, "RMSPercent"), wanted, 1e-12);
+  EXPECT_NEAR(Cell(report, 1, "RMSPercent"), Cell(report, 1, "RoundTripRMSPercent"), 0.05 * wanted);
+  EXPECT_GT(Cell(report, 2, "GradientJumpPercent"), 0.0);
+  EXPECT_EQ(DomainIn(report, 1), "Cubes");
+  EXPECT_TRUE(std::isnan(Cell(report, 0, "RMSPercent"))); // what lies around the ball
+  // What the fit counts: points once, and coordinates on the net that they were fitted on.
+  const double distinct = Cell(report, 2, "DistinctControlPoints");
+  EXPECT_EQ(
+    distinct, rounds->GetValueByName(rounds->GetNumberOfRows() - 1, "ControlPoints").ToDouble());
+  EXPECT_GT(Cell(report, 2, "ControlPoints"), distinct);
+  EXPECT_EQ(Cell(report, 2, "NumbersStored"), 4.0 * distinct);
+  EXPECT_EQ(field->GetArray("NumbersFitted")->GetTuple1(0),
+    3.0 * field->GetArray("ShapeControlPoints")->GetTuple1(0) + distinct);
+
+  // Where nothing tells what the fit ended with, the array's parameters count.
+  report->SetInputConnection(3, nullptr);
+  report->Update();
+  EXPECT_GT(Cell(report, 1, "RMSPercent"), 1.5 * wanted);
+}
+
+//------------------------------------------------------------------------------
+// Parameters of an image are not those of a fit without domain.
+TEST(ReconstructionReport, KnowsTheParametersInABox)
+{
+  const trivariate_testing::BallDomain ball(20);
+  vtkNew<vtkTSplineFit> fit;
+  fit->SetInputData(ball.Image);
+  fit->SetMaximumNumberOfControlPoints(500);
+  vtkNew<vtkReconstructionReport> report;
+  report->SetInputData(ball.Image);
+  report->SetTSplineConnection(fit->GetOutputPort());
+  report->Update();
+  EXPECT_GT(Cell(report, 1, "RMSPercent"), 0.0);
+  EXPECT_EQ(Cell(report, 1, "RMSPercent"), Cell(report, 1, "RoundTripRMSPercent"));
 }
 
 //------------------------------------------------------------------------------
@@ -157,6 +235,10 @@ TEST(ReconstructionReport, SaysWhatIsWrong)
   values->SetValue(5, std::numeric_limits<double>::quiet_NaN());
   expect("at voxel 5");
   values->SetValue(5, 0.0);
+  report->SetInputData(1, Together(Moved(RandomBox({ 1, 1, 1 }, 1, 1), 0.0, 1),
+                            Moved(RandomBox({ 1, 1, 1 }, 1, 1), 0.0, 4)));
+  expect("The T-spline has 2 segments, but the image has no point array \"Segment\"");
+  report->SetInputData(1, grid);
   choose(1, "absent");
   expect("no point array \"absent\" of labels");
   choose(1, "Other");

@@ -20,8 +20,8 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from trivariate import vtkHydrogenOrbitalSource, vtkTSplineReader
 
 script = pathlib.Path(sys.argv[1]) / "reconstruct.sh"
-KEYS = ["voxels", "control_points", "numbers_stored", "tmesh_cells", "bezier_cells",
-        "rms_density_percent", "psnr_decibels", "max_error", "round_trip_rms_density_percent",
+KEYS = ["voxels", "control_points", "distinct_control_points", "numbers_stored", "tmesh_cells",
+        "bezier_cells", "rms_density_percent", "psnr_decibels", "max_error", "round_trip_rms_density_percent",
         "found_percent", "segments", "domains", "fitted_over", "blocks", "corners", "cubes",
         "boundary_hausdorff_voxels", "gradient_jump_percent", "min_scaled_jacobian", "inverted_cells",
         "mean_scaled_jacobian", "inverted_cells_before", "inverted_cells_after", "hexahedra",
@@ -144,7 +144,7 @@ def test_automatic():
     assert list(report) == KEYS and report["segments"] >= 2 and report["domains"] >= 1
     assert {"PolycubeDomain", "FrameField", "VolumeParameterization", "HexRemesh",
             "FitOverBox"} <= set(report["seconds_of_fit"])
-    assert report["found_percent"] == 100.0 and report["control_points"] <= 1200
+    assert report["found_percent"] == 100.0 and 600 < report["distinct_control_points"] <= 1200
     assert (report["round_trip_rms_density_percent"]
             <= 1.0001 * reports["results"]["round_trip_rms_density_percent"])
     for name in ("resampled.vti", "segments.vti", "boundary.vtp", "patches.vtp", "domain.vtu",
@@ -217,6 +217,9 @@ def test_given_domain():
         data = grid.GetOutput().GetPointData()
         blocks = vtk_to_numpy(data.GetArray("Block"))[vtk_to_numpy(data.GetArray("Segment")) == 1]
         points[file] = len(blocks), len(set(blocks))
+        # The limit counts points once that blocks share.
+        assert 1200 < report["distinct_control_points"] <= 2500, report
+        assert (report["control_points"] > 2500) == file.endswith("vtu"), report
     assert points["given/domain.vtu"][1] >= 7  # layers
     assert points["corners.json"][1] == 1, points  # cubes alone
 
