@@ -1,0 +1,93 @@
+# SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The scripts that make the tables and figures of Documentation/Results.md run on tiny volumes, so
+that a column or a field that gets another name is missed here first."""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+
+from trivariate import vtkHydrogenOrbitalSource
+
+root = pathlib.Path(sys.argv[1])
+utilities = root / "Utilities"
+os.environ["TRIVARIATE_DATA_DIR"] = "data"
+
+
+def make_data():
+    """A volume by the name of one that the figures know how to look at."""
+    orbital = vtkHydrogenOrbitalSource()
+    orbital.SetDimensions(16, 16, 16)
+    writer = vtkXMLImageDataWriter()
+    writer.SetInputConnection(orbital.GetOutputPort())
+    writer.SetFileName("data/fuel.vti")
+    os.makedirs("data", exist_ok=True)
+    writer.Write()
+
+
+def run(*command):
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
+    assert done.returncode == 0 and "Traceback" not in done.stderr, done.stdout + done.stderr
+    return done.stdout
+
+
+def check_table(text, rows):
+    """As many rows, each with a cell for each column; returns them."""
+    lines = [line.strip("| \n").split("|") for line in text.splitlines() if line.startswith("|")]
+    print(text)
+    assert len(lines) == 2 + rows, text
+    assert all(len(line) == len(lines[0]) for line in lines), text
+    return [[cell.strip() for cell in line] for line in lines[2:]]
+
+
+def test_table1():
+    text = run(sys.executable, utilities / "table1.py", "--save", "saved", "fuel=200:box",
+               "orbital_16=200:segments")
+    rows = check_table(text, 2)
+    assert [row[:3] for row in rows] == [["fuel", "box", "4,096"], ["orbital_16", "segments", "4,096"]]
+    assert 64 <= int(rows[0][5]) <= 200 and int(rows[0][6]) == int(rows[0][5]) + 12, rows
+    assert float(rows[0][3]) == float(rows[0][7]) and rows[0][8] == "100.00", rows
+    assert "boxes" in rows[0][14] and "segments" in rows[1][14], rows
+
+
+def test_figure5():
+    picture = pathlib.Path("figure5.png")
+    picture.unlink(missing_ok=True)
+    run(utilities / "with-display.sh", "pvpython", utilities / "figure5.py", "saved", picture,
+        "fuel=200:box")
+    assert picture.stat().st_size > 10000
+
+
+def test_figures():
+    """The lists that it hands on fit together, and to the tables of the scripts that it runs."""
+    sys.path.insert(0, str(utilities))
+    import figures
+    import table1
+    assert len(figures.DOMAINS) == len(figures.EDGES)
+    assert all(run.split(":")[1] in table1.DOMAINS for run in figures.SPLINES)
+    assert callable(figures.main)
+
+
+def test_fits():
+    shutil.rmtree("fitted", ignore_errors=True)
+    os.makedirs("fitted")
+    rows = check_table(run(sys.executable, utilities / "fits.py", "--baselines", "fitted",
+                           "ball=0/cube:8:150"), 1)
+    points, shape, numbers = (int(cell.replace(",", "")) for cell in rows[0][1:4])
+    assert shape < points <= 150 and numbers == 3 * shape + points, rows
+
+
+def test_results():
+    rows = check_table(run(sys.executable, utilities / "results.py", "results", "fuel=200"), 1)
+    assert rows[0][:2] == ["fuel", "4,096"] and 64 <= int(rows[0][2]) <= 200, rows
+
+
+make_data()
+test_table1()
+test_figure5()
+test_figures()
+test_fits()
+test_results()
