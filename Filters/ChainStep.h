@@ -23,6 +23,7 @@ struct Chain
 {
   vtkAlgorithm* Filter;
   std::map<std::string, double> Seconds; ///< by the name of the step
+  std::vector<std::string> Warnings;     ///< of steps whose results count
 };
 
 /// Adds where the time went to the field data: Step (string) and StepSeconds (double).
@@ -42,8 +43,13 @@ public:
   /// step's own sentence when it failed.
   void Run();
 
-  /// What the step warned of.
-  const std::vector<std::string>& Warnings() const { return this->WarningTexts; }
+  /// The same; what the step warned of becomes warnings of the chain.
+  void RunTelling()
+  {
+    this->Run();
+    this->Outer.Warnings.insert(
+      this->Outer.Warnings.end(), this->WarningTexts.begin(), this->WarningTexts.end());
+  }
 
 private:
   static void Hear(vtkObject* caller, unsigned long event, void* self, void* text);

@@ -5,11 +5,9 @@
 #include "ChainStep.h"
 #include "DomainSamples.h"
 #include "DomainSelection.h"
-#include "SMPExecution.h"
+#include "PartErrors.h"
 #include "SegmentPoints.h"
-#include "TSpline/BezierMesh.h"
 #include "TSplineGrid.h"
-#include "TSplinePoints.h"
 #include "vtkTSplineFit.h"
 
 #include "vtkCellData.h"
@@ -21,8 +19,6 @@
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
-#include "vtkPolyData.h"
 #include "vtkStructuredGrid.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
@@ -80,7 +76,7 @@ FittedPart FitOverBlocks(const FilledDomains& domains, vtkImageData* image,
   {
     if (domains.Folded.count(segment) > 0)
     {
-      throw std::runtime_error("Its block mesh has folds.");
+      throw std::runtime_error("its block mesh has folds.");
     }
   }
   vtkDataArray* owners = domains.Polycubes->GetCellData()->GetArray("Segment");
@@ -105,49 +101,13 @@ FittedPart FitOverBlocks(const FilledDomains& domains, vtkImageData* image,
   FittedPart part = RunFit(fit, CutMaskName, "FitOverCubes", options, chain, from, to);
   const bool layered = cubes->GetCellData()->GetArray("Patch")->GetRange()[1] >= 0.0;
   part.Domain = layered ? "LayeredCubes" : "Cubes";
+  const double folds = part.Rounds->GetFieldData()->GetArray("ShapeCells")->GetComponent(0, 1);
+  if (folds > 0.0)
+  {
+    throw std::runtime_error(
+      "the spline over cubes is folded in " + std::to_string(int(folds)) + " of its cells.");
+  }
   return part;
-}
-
-//------------------------------------------------------------------------------
-// How a spline stands for some voxels by its inverse map.
-struct PartErrors
-{
-  double Squares = 0.0;          // sum of squared errors of the first array, where it was found
-  std::vector<vtkIdType> Missed; // voxels that were not found
-};
-
-// The errors of a spline of one segment at voxels of an image.
-PartErrors MeasurePart(const SegmentedImage& image, const TSplineModel& model,
-  const std::vector<vtkIdType>& voxels, Chain& chain, double from, double to)
-{
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(voxels.size()));
-  for (std::size_t i = 0; i < voxels.size(); ++i)
-  {
-    points->SetPoint(static_cast<vtkIdType>(i), image.Image->GetPoint(voxels[i]));
-  }
-  vtkNew<vtkPolyData> cloud;
-  cloud->SetPoints(points);
-  const Execution execution = SMPExecution(chain.Filter, from, to);
-  const BezierMesh mesh(model.Spline, execution.Part(0.0, 0.1));
-  FillPoints({ model, mesh, false, false, ReachIn(image.Image) }, cloud, execution.Part(0.1, 1.0));
-  vtkDataArray* wanted = image.Values();
-  vtkDataArray* values = cloud->GetPointData()->GetArray(image.Arrays.front().c_str());
-  vtkDataArray* found = cloud->GetPointData()->GetArray("vtkValidPointMask");
-  PartErrors errors;
-  for (std::size_t i = 0; i < voxels.size(); ++i)
-  {
-    if (found->GetTuple1(static_cast<vtkIdType>(i)) == 0.0)
-    {
-      errors.Missed.push_back(voxels[i]);
-      continue;
-    }
-    const double error =
-      values->GetComponent(static_cast<vtkIdType>(i), 0) - wanted->GetComponent(voxels[i], 0);
-    errors.Squares += error * error;
-  }
-  return errors;
 }
 }
 
@@ -221,25 +181,36 @@ DomainFit FitOverDomain(const SegmentedImage& image, const PartNumbers& numbers,
   }
   together.Together = whole.Label;
   together.Range = whole.High - whole.Low;
+  vtkDataArray* known = domains.Fields->GetPointData()->GetArray(ParameterMaskName);
   const auto all = static_cast<double>(cut.Voxels.size());
   double squares = 0.0;
   for (const std::int32_t number : numbers)
   {
     FittedPart& part = fit.Fitted.emplace_back(together);
     part.Model = SegmentPart(together.Model, image.Parts[number].Label);
-    std::vector<vtkIdType> voxels;
-    std::copy_if(cut.Voxels.begin(), cut.Voxels.end(), std::back_inserter(voxels),
-      [&](vtkIdType voxel) { return image.PartOf[voxel] == number; });
-    const double next = at + (to - at) * static_cast<double>(voxels.size()) / all;
+    // What the fit did not know it did not see, though the spline may come near.
+    std::vector<vtkIdType> voxels, missed;
+    for (const vtkIdType voxel : cut.Voxels)
+    {
+      if (image.PartOf[voxel] == number)
+      {
+        (known->GetTuple1(voxel) != 0.0 ? voxels : missed).push_back(voxel);
+      }
+    }
+    const double count = static_cast<double>(voxels.size() + missed.size());
+    const double next = at + (to - at) * count / all;
     const PartErrors errors = MeasurePart(image, part.Model, voxels, chain, at, next);
     at = next;
-    part.Squares = errors.Squares;
-    squares += errors.Squares;
-    fit.Missed.insert(fit.Missed.end(), errors.Missed.begin(), errors.Missed.end());
-    if (double(errors.Missed.size()) > MostMissed * double(voxels.size()))
+    missed.insert(missed.end(), errors.Missed.begin(), errors.Missed.end());
+    part.Squares = image.Arrays.size() == 1
+                     ? errors.Squares.front()
+                     : SquaresOf(part, count - static_cast<double>(missed.size()));
+    squares += part.Squares;
+    fit.Missed.insert(fit.Missed.end(), missed.begin(), missed.end());
+    if (double(missed.size()) > MostMissed * count)
     {
-      fit.Why = "the spline over cubes misses " + std::to_string(errors.Missed.size()) + " of " +
-                std::to_string(voxels.size()) + " voxels.";
+      fit.Why = "the spline over cubes misses " + std::to_string(missed.size()) + " of " +
+                std::to_string(static_cast<vtkIdType>(count)) + " voxels.";
     }
   }
   fit.Error = squares / (all - static_cast<double>(fit.Missed.size()));

@@ -29,8 +29,9 @@ struct DomainFit
 
 /**
  * Fits one segment, or several together, over their own blocks alone, and looks by the inverse map
- * how the spline stands for their voxels. Where one is folded, the fit fails, or a segment misses 2
- * % of its voxels, there is none. Throws as ChainStep does when the chain is stopped.
+ * how the spline stands for their voxels; those without a parameter are missed. Where a block mesh
+ * or the spline is folded, the fit fails, or a segment misses 2 % of its voxels, there is none.
+ * Throws as ChainStep does when the chain is stopped.
  */
 DomainFit FitOverDomain(const SegmentedImage& image, const PartNumbers& numbers,
   const FilledDomains& domains, const SegmentFitOptions& options, Chain& chain, double from,

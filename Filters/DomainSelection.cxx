@@ -116,6 +116,46 @@ vtkNew<vtkUnstructuredGrid> WithoutLayers(vtkUnstructuredGrid* polycubes)
 }
 
 //------------------------------------------------------------------------------
+void LeaveOut(const std::set<int>& segments, vtkPolyData* patches, vtkUnstructuredGrid* polycubes)
+{
+  std::set<int> kept;
+  vtkDataArray* owners = polycubes->GetCellData()->GetArray("Segment");
+  for (vtkIdType cell = 0; cell < polycubes->GetNumberOfCells(); ++cell)
+  {
+    kept.insert(static_cast<int>(owners->GetTuple1(cell)));
+  }
+  for (const int segment : segments)
+  {
+    kept.erase(segment);
+  }
+  const std::vector<vtkIdType> cells = CellsOf(polycubes, kept);
+  const std::vector<vtkIdType> triangles = CellsOf(patches, kept);
+  if (static_cast<vtkIdType>(triangles.size()) == patches->GetNumberOfCells() &&
+      static_cast<vtkIdType>(cells.size()) == polycubes->GetNumberOfCells())
+  {
+    return;
+  }
+  polycubes->ShallowCopy(CubesOf(polycubes, cells));
+  vtkNew<vtkPolyData> theirs;
+  theirs->SetPoints(patches->GetPoints());
+  theirs->GetPointData()->ShallowCopy(patches->GetPointData());
+  theirs->GetCellData()->CopyAllocate(patches->GetCellData());
+  theirs->AllocateEstimate(patches->GetNumberOfCells(), 3);
+  vtkNew<vtkIdList> points;
+  for (const vtkIdType triangle : triangles)
+  {
+    patches->GetCellPoints(triangle, points);
+    theirs->GetCellData()->CopyData(
+      patches->GetCellData(), triangle, theirs->InsertNextCell(VTK_TRIANGLE, points));
+  }
+  vtkNew<vtkCleanPolyData> clean; // of points that no triangle has
+  clean->PointMergingOff();
+  clean->SetInputData(theirs);
+  clean->Update();
+  patches->ShallowCopy(clean->GetOutput());
+}
+
+//------------------------------------------------------------------------------
 std::vector<std::string> LeaveOutInverted(vtkPolyData* patches, vtkUnstructuredGrid* polycubes)
 {
   DomainBlocks blocks;
@@ -142,41 +182,19 @@ std::vector<std::string> LeaveOutInverted(vtkPolyData* patches, vtkUnstructuredG
   }
 
   std::vector<std::string> why;
-  std::set<int> sound;
+  std::set<int> unsound;
   for (const auto& [segment, count] : all)
   {
     if (2 * inverted[segment] < count)
     {
-      sound.insert(segment);
       continue;
     }
+    unsound.insert(segment);
     why.push_back("Segment " + std::to_string(segment) + " is fitted over its bounding box: " +
                   std::to_string(inverted[segment]) + " of " + std::to_string(count) +
                   " blocks of its domain are inverted or flat between their corners.");
   }
-  const std::vector<vtkIdType> cells = CellsOf(polycubes, sound);
-  const std::vector<vtkIdType> triangles = CellsOf(patches, sound);
-  if (static_cast<vtkIdType>(triangles.size()) == patches->GetNumberOfCells())
-  {
-    return why;
-  }
-  polycubes->ShallowCopy(CubesOf(polycubes, cells));
-  vtkNew<vtkPolyData> kept;
-  kept->SetPoints(patches->GetPoints());
-  kept->GetPointData()->ShallowCopy(patches->GetPointData());
-  kept->GetCellData()->CopyAllocate(patches->GetCellData());
-  kept->AllocateEstimate(patches->GetNumberOfCells(), 3);
-  for (const vtkIdType triangle : triangles)
-  {
-    patches->GetCellPoints(triangle, points);
-    kept->GetCellData()->CopyData(
-      patches->GetCellData(), triangle, kept->InsertNextCell(VTK_TRIANGLE, points));
-  }
-  vtkNew<vtkCleanPolyData> clean; // of points that no triangle has
-  clean->PointMergingOff();
-  clean->SetInputData(kept);
-  clean->Update();
-  patches->ShallowCopy(clean->GetOutput());
+  LeaveOut(unsound, patches, polycubes);
   return why;
 }
 }

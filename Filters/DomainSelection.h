@@ -7,6 +7,7 @@
 #include "vtkNew.h"
 #include "vtkType.h"
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ vtkNew<vtkUnstructuredGrid> CubesOf(
 
 /// Of solid segments with layers, the cubes alone, with corners on the surface; no others.
 vtkNew<vtkUnstructuredGrid> WithoutLayers(vtkUnstructuredGrid* polycubes);
+
+/// Takes the blocks of some segments out, and patches of those without blocks.
+void LeaveOut(const std::set<int>& segments, vtkPolyData* patches, vtkUnstructuredGrid* polycubes);
 
 /**
  * Takes the segments out of which half of the blocks or more are inverted or flat between their

@@ -19,6 +19,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
 
 namespace trivariate
 {
@@ -76,7 +79,7 @@ FilledDomains Parameterize(vtkImageData* frames, vtkPolyData* patches,
   parameters->SetInputData(2, polycubes);
   parameters->SetCellLength(CellLength(frames));
   parameters->RefineThinPartsOff(); // fits do not take FrameParameter
-  ChainStep(parameters, chain, from, to).Run();
+  ChainStep(parameters, chain, from, to).RunTelling();
   FilledDomains domains;
   domains.Fields = vtkImageData::SafeDownCast(parameters->GetOutputDataObject(0));
   domains.Polycubes = parameters->GetPolycube();
@@ -89,10 +92,9 @@ FilledDomains Parameterize(vtkImageData* frames, vtkPolyData* patches,
   }
   return domains;
 }
-}
 
 //------------------------------------------------------------------------------
-FilledDomains FillDomains(vtkImageData* image, vtkPolyData* patches, vtkUnstructuredGrid* polycubes,
+FilledDomains FillAll(vtkImageData* image, vtkPolyData* patches, vtkUnstructuredGrid* polycubes,
   Chain& chain, double from, double to)
 {
   const auto at = [from, to](double share) { return from + (to - from) * share; };
@@ -119,6 +121,41 @@ FilledDomains FillDomains(vtkImageData* image, vtkPolyData* patches, vtkUnstruct
     ->SetComponent(
       0, 0, domains.Fields->GetFieldData()->GetArray("InvertedCells")->GetComponent(0, 0));
   return domains;
+}
+
+// The segment that a message begins with; -1: none.
+int SegmentNamed(const std::string& message)
+{
+  int segment = -1;
+  return std::sscanf(message.c_str(), "Segment %d:", &segment) == 1 ? segment : -1;
+}
+}
+
+//------------------------------------------------------------------------------
+FilledDomains FillDomains(vtkImageData* image, vtkPolyData* patches, vtkUnstructuredGrid* polycubes,
+  Chain& chain, double from, double to)
+{
+  while (true)
+  {
+    try
+    {
+      return FillAll(image, patches, polycubes, chain, from, to);
+    }
+    catch (const std::runtime_error& reason)
+    {
+      const int segment = SegmentNamed(reason.what());
+      const vtkIdType before = polycubes->GetNumberOfCells();
+      LeaveOut({ segment }, patches, polycubes);
+      const vtkIdType left = polycubes->GetNumberOfCells();
+      if (left == 0 || left == before)
+      {
+        throw;
+      }
+      const std::string why = reason.what();
+      chain.Warnings.push_back("Segment " + std::to_string(segment) +
+                               " is fitted over its bounding box" + why.substr(why.find(':')));
+    }
+  }
 }
 
 //------------------------------------------------------------------------------

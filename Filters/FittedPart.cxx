@@ -52,8 +52,7 @@ FittedPart FitOverBox(const Cut& cut, const Part& part, const SegmentFitOptions&
   fitted.Together = part.Label;
   fitted.Range = part.High - part.Low;
   // Its geometry is affine: the error of the round trip is that of the fit.
-  const double rms = fitted.Range > 0.0 ? LastRms(fitted.Rounds) / 100.0 * fitted.Range : 0.0;
-  fitted.Squares = rms * rms * static_cast<double>(cut.Voxels.size());
+  fitted.Squares = SquaresOf(fitted, static_cast<double>(cut.Voxels.size()));
   fitted.Domain = "SegmentBox";
   return fitted;
 }
@@ -105,6 +104,13 @@ void AddColumn(vtkTable* all, const char* name, vtkIdType rows, const Value& val
 }
 
 //------------------------------------------------------------------------------
+double SquaresOf(const FittedPart& part, double voxels)
+{
+  const double rms = part.Range > 0.0 ? LastRms(part.Rounds) / 100.0 * part.Range : 0.0;
+  return rms * rms * voxels;
+}
+
+//------------------------------------------------------------------------------
 double LastRms(vtkTable* rounds)
 {
   return LastOf(rounds, "RMS").ToDouble();
@@ -138,11 +144,11 @@ double RmsWith(vtkTable* rounds, double controlPoints)
 }
 
 //------------------------------------------------------------------------------
-void AddRounds(const FittedPart& fitted, int segment, vtkTable* all)
+void AddRounds(const FittedPart& fitted, int segment, bool isSingle, vtkTable* all)
 {
   vtkTable* own = fitted.Rounds;
   const vtkIdType rows = own->GetNumberOfRows();
-  const double rms = OwnRms(own, segment);
+  const double rms = isSingle ? OwnRms(own, segment) : std::nan("");
   vtkDataArray* jumps = own->GetFieldData()->GetArray("GradientJump");
   const double jump = jumps ? jumps->GetComponent(0, 0) : 0.0; // a box has no faces inside
   AddColumn<vtkIntArray>(all, "Segment", rows, [=](vtkIdType) { return segment; });

@@ -22,10 +22,12 @@ struct FittedPart
 {
   TSplineModel Model;
   vtkSmartPointer<vtkTable> Rounds;
-  int Together = 0;     ///< the lowest label of those that the rounds are of
-  double Range = 0.0;   ///< of the array in them, of which the errors of Rounds are parts
-  double Squares = 0.0; ///< sum of the squared errors of the round trip
-  std::string Domain;   ///< SegmentBox, Cubes or LayeredCubes
+  int Together = 0;   ///< the lowest label of those that the rounds are of
+  double Range = 0.0; ///< of the array in them, of which the errors of Rounds are parts
+  /// Sum of the squared errors of the round trip; with several arrays those of the fit's worst one,
+  /// as SquaresOf has them.
+  double Squares = 0.0;
+  std::string Domain; ///< SegmentBox, Cubes or LayeredCubes
 };
 
 /**
@@ -39,6 +41,10 @@ FittedPart RunFit(vtkTSplineFit* fit, const char* mask, const std::string& step,
 FittedPart FitOverBox(const Cut& cut, const Part& part, const SegmentFitOptions& options,
   Chain& chain, double from, double to);
 
+/// The error that a fit ended with, of the worst array, squared and summed over so many voxels, as
+/// if the first array's range were that one's.
+double SquaresOf(const FittedPart& part, double voxels);
+
 /// The error that a fit ended with, in percent of the range of what it fitted.
 double LastRms(vtkTable* rounds);
 
@@ -49,8 +55,9 @@ vtkIdType LastControlPoints(vtkTable* rounds);
 /// a power of their number, before the first and after the last one theirs.
 double RmsWith(vtkTable* rounds, double controlPoints);
 
-/// Adds the rounds of a fit to those of all, under a label.
-void AddRounds(const FittedPart& fitted, int segment, vtkTable* all);
+/// Adds the rounds of a fit to those of all, under a label. The error of the segment alone is known
+/// of a single array.
+void AddRounds(const FittedPart& fitted, int segment, bool isSingle, vtkTable* all);
 }
 
 #endif

@@ -10,19 +10,50 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace trivariate
 {
+namespace
+{
+constexpr int Most = std::numeric_limits<int>::max();
+constexpr double Infinite = std::numeric_limits<double>::infinity();
+
+// A part of no voxels.
+Part Fresh(std::int32_t label, std::size_t arrays)
+{
+  return { label, { Most, -Most, Most, -Most, Most, -Most }, Infinite, -Infinite,
+    std::vector<std::array<double, 2>>(arrays - 1, { Infinite, -Infinite }) };
+}
+
+std::vector<double> RangesOf(const Part& part)
+{
+  std::vector<double> ranges{ part.High - part.Low };
+  for (const auto& [low, high] : part.Further)
+  {
+    ranges.push_back(high - low);
+  }
+  return ranges;
+}
+
+void Include(std::array<double, 2>& range, double value)
+{
+  range[0] = std::min(range[0], value);
+  range[1] = std::max(range[1], value);
+}
+}
+
 //------------------------------------------------------------------------------
 SegmentedImage::SegmentedImage(vtkImageData* image, std::vector<std::string> arrays)
   : Image(image)
   , Arrays(std::move(arrays))
 {
   vtkDataArray* labels = image->GetPointData()->GetArray("Segment");
-  vtkDataArray* values = this->Values();
   std::map<std::int32_t, Part> parts;
+  Part* last = nullptr; // that of the voxel before
   const int* e = image->GetExtent();
   vtkIdType voxel = 0;
   for (int k = e[4]; k <= e[5]; ++k)
@@ -32,17 +63,11 @@ SegmentedImage::SegmentedImage(vtkImageData* image, std::vector<std::string> arr
       for (int i = e[0]; i <= e[1]; ++i, ++voxel)
       {
         const auto label = static_cast<std::int32_t>(labels->GetTuple1(voxel));
-        const double value = values->GetComponent(voxel, 0);
-        const Part fresh{ label, { i, i, j, j, k, k }, value, value };
-        Part& part = parts.emplace(label, fresh).first->second;
-        const int at[3] = { i, j, k };
-        for (int a = 0; a < 3; ++a)
+        if (!last || last->Label != label)
         {
-          part.Box[2 * a] = std::min(part.Box[2 * a], at[a]);
-          part.Box[2 * a + 1] = std::max(part.Box[2 * a + 1], at[a]);
+          last = &parts.emplace(label, Fresh(label, this->Arrays.size())).first->second;
         }
-        part.Low = std::min(part.Low, value);
-        part.High = std::max(part.High, value);
+        this->Widen(*last, voxel, { i, j, k });
       }
     }
   }
@@ -65,6 +90,66 @@ SegmentedImage::SegmentedImage(vtkImageData* image, std::vector<std::string> arr
   {
     this->PartOf[voxel] = number[static_cast<std::int32_t>(labels->GetTuple1(voxel))];
   }
+}
+
+//------------------------------------------------------------------------------
+void SegmentedImage::Widen(Part& part, vtkIdType voxel, const std::array<int, 3>& at) const
+{
+  for (int a = 0; a < 3; ++a)
+  {
+    part.Box[2 * a] = std::min(part.Box[2 * a], at[a]);
+    part.Box[2 * a + 1] = std::max(part.Box[2 * a + 1], at[a]);
+  }
+  const double value = this->Values()->GetComponent(voxel, 0);
+  part.Low = std::min(part.Low, value);
+  part.High = std::max(part.High, value);
+  for (std::size_t f = 0; f < part.Further.size(); ++f)
+  {
+    vtkDataArray* array = this->Image->GetPointData()->GetArray(this->Arrays[f + 1].c_str());
+    for (int component = 0; component < array->GetNumberOfComponents(); ++component)
+    {
+      Include(part.Further[f], array->GetComponent(voxel, component));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void SegmentedImage::GiveToFirst(vtkIdType voxel)
+{
+  int size[3];
+  this->Image->GetDimensions(size);
+  const int* e = this->Image->GetExtent();
+  const vtkIdType row = voxel / size[0];
+  this->Widen(this->Parts.front(), voxel,
+    { e[0] + int(voxel % size[0]), e[2] + int(row % size[1]), e[4] + int(row / size[1]) });
+  this->PartOf[voxel] = 0;
+}
+
+//------------------------------------------------------------------------------
+PartNumbers SegmentedImage::AllParts() const
+{
+  PartNumbers all(this->Parts.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> SegmentedImage::WholeRanges() const
+{
+  return RangesOf(UniteParts(this->Parts, this->AllParts()));
+}
+
+//------------------------------------------------------------------------------
+double SegmentedImage::ToleranceIn(const Part& part, double tolerance) const
+{
+  const std::vector<double> whole = this->WholeRanges(), own = RangesOf(part);
+  double least = 0.0;
+  for (std::size_t array = 0; array < whole.size(); ++array)
+  {
+    const double here = own[array] > 0.0 ? tolerance * whole[array] / own[array] : 0.0;
+    least = least == 0.0 || (here > 0.0 && here < least) ? here : least;
+  }
+  return least;
 }
 
 //------------------------------------------------------------------------------
@@ -102,6 +187,11 @@ Part UniteParts(const std::vector<Part>& parts, const PartNumbers& numbers)
     }
     all.Low = std::min(all.Low, part.Low);
     all.High = std::max(all.High, part.High);
+    for (std::size_t f = 0; f < all.Further.size(); ++f)
+    {
+      Include(all.Further[f], part.Further[f][0]);
+      Include(all.Further[f], part.Further[f][1]);
+    }
   }
   return all;
 }

@@ -25,7 +25,8 @@ struct Part
 {
   std::int32_t Label; ///< of several the first
   std::array<int, 6> Box;
-  double Low, High;
+  double Low, High;                             ///< of the first array
+  std::vector<std::array<double, 2>> Further{}; ///< the ranges of those beside it
 };
 
 /// Segments by their numbers, in ascending order of their labels.
@@ -39,10 +40,23 @@ struct SegmentedImage
 
   vtkDataArray* Values() const; ///< the first array
 
+  PartNumbers AllParts() const;
+  std::vector<double> WholeRanges() const; ///< of each array, as in Part
+
+  /// A tolerance, in parts of the range over the whole image, in parts of that in a segment: of the
+  /// array for which it is least. 0 where all are constant in the segment.
+  double ToleranceIn(const Part& part, double tolerance) const;
+
+  /// Makes a voxel one of the first part.
+  void GiveToFirst(vtkIdType voxel);
+
   vtkImageData* Image;
   std::vector<std::string> Arrays; ///< names of point arrays
   std::vector<Part> Parts;         ///< by ascending label
   PartNumbers PartOf;              ///< of each voxel
+
+private:
+  void Widen(Part& part, vtkIdType voxel, const std::array<int, 3>& at) const;
 };
 
 /// The share of the control points that each part should have, by PointShares.

@@ -4,6 +4,7 @@
 
 #include "ChainStep.h"
 #include "DomainFit.h"
+#include "PartErrors.h"
 #include "SMPExecution.h"
 #include "SegmentCut.h"
 
@@ -54,7 +55,7 @@ class SegmentFitter
 {
 public:
   SegmentFitter(vtkImageData* image, const SegmentFitOptions& options, Chain& chain)
-    : Segmented(image, AllArrays(options))
+    : Segmented(image, options.Arrays())
     , Options(options)
     , Outer(chain)
     , Fitted(this->Segmented.Parts.size())
@@ -66,16 +67,9 @@ public:
 
   /// Sentences for the user.
   std::vector<std::string> Fit(double from, double to);
-  SegmentFits Join(vtkTable* rounds) const;
+  SegmentFits Join(vtkTable* rounds, double at) const;
 
 private:
-  static std::vector<std::string> AllArrays(const SegmentFitOptions& options)
-  {
-    std::vector<std::string> arrays{ options.Array };
-    arrays.insert(arrays.end(), options.Further.begin(), options.Further.end());
-    return arrays;
-  }
-
   std::vector<Unit> FindUnits() const;
   int Fewest(std::int32_t number) const;
   std::vector<const FilledDomains*> DomainsOf(std::int32_t number) const;
@@ -166,8 +160,7 @@ SegmentFitOptions SegmentFitter::OptionsFor(const Part& part, int controlPoints)
 {
   SegmentFitOptions own = this->Options;
   own.MaximumControlPoints = controlPoints;
-  const double range = part.High - part.Low;
-  own.RmsTolerance = range > 0.0 ? std::min(100.0, own.RmsTolerance * this->Range / range) : 0.0;
+  own.RmsTolerance = std::min(100.0, this->Segmented.ToleranceIn(part, own.RmsTolerance));
   return own;
 }
 
@@ -201,7 +194,7 @@ double SegmentFitter::BoxError(const Unit& unit, double part) const
     const Part& segment = this->Segmented.Parts[number];
     const double points = part * static_cast<double>(LastControlPoints(rounds));
     const double error = RmsWith(rounds, points) / 100.0 * (segment.High - segment.Low);
-    const auto& of = this->Segmented.PartOf;
+    const PartNumbers& of = this->Segmented.PartOf;
     const auto count = static_cast<double>(std::count(of.begin(), of.end(), number));
     squares += error * error * count;
     voxels += count;
@@ -281,7 +274,7 @@ std::string SegmentFitter::ImproveOverCubes(
   }
   for (const vtkIdType voxel : missed)
   {
-    this->Segmented.PartOf[voxel] = 0;
+    this->Segmented.GiveToFirst(voxel);
   }
   if (isOverCubes && !why.empty() && this->Fitted[unit.front()].Domain == "Cubes")
   {
@@ -315,10 +308,10 @@ void SegmentFitter::FitUnit(
     {
       return;
     }
-    std::string labels = std::to_string(this->Segmented.Parts[unit.front()].Label);
-    for (std::size_t n = 1; n < unit.size(); ++n)
+    std::string labels;
+    for (std::size_t n = 0; n < unit.size(); ++n)
     {
-      labels += n + 1 == unit.size() ? " and " : ", ";
+      labels += n == 0 ? "" : n + 1 == unit.size() ? " and " : ", ";
       labels += std::to_string(this->Segmented.Parts[unit[n]].Label);
     }
     this->Warnings.push_back(
@@ -362,9 +355,9 @@ std::vector<std::string> SegmentFitter::Fit(double from, double to)
                                               : shareOf(a) < shareOf(b);
     });
   double left = this->Options.MaximumControlPoints, open = 1.0, reserved = 0.0;
-  for (std::size_t p = 0; p < this->Segmented.Parts.size(); ++p)
+  for (const std::int32_t number : this->Segmented.AllParts())
   {
-    reserved += this->Fewest(static_cast<std::int32_t>(p));
+    reserved += this->Fewest(number);
   }
   if (const auto& domains = this->Options.Domains;
       !this->Options.Compared && !domains.empty() &&
@@ -413,23 +406,30 @@ vtkIdType SegmentFitter::CountPoints(const Unit& unit) const
 }
 
 //------------------------------------------------------------------------------
-SegmentFits SegmentFitter::Join(vtkTable* rounds) const
+SegmentFits SegmentFitter::Join(vtkTable* rounds, double at) const
 {
   SegmentFits whole{ {}, 0, 0.0 };
+  const bool isSingle = this->Options.Further.empty();
+  std::vector<TSplineModel> models; // of the parts, where several arrays are to be compared
   double squares = 0.0;
   for (std::size_t p = 0; p < this->Segmented.Parts.size(); ++p)
   {
     whole.Model = JoinParts(whole.Model, this->Fitted[p].Model);
     squares += this->Fitted[p].Squares;
     whole.ControlPoints += this->CountPoints({ static_cast<std::int32_t>(p) });
-    AddRounds(this->Fitted[p], this->Segmented.Parts[p].Label, rounds);
+    AddRounds(this->Fitted[p], this->Segmented.Parts[p].Label, isSingle, rounds);
+    models.push_back(this->Fitted[p].Model);
   }
   vtkDataArray* labels = this->Segmented.Image->GetPointData()->GetArray("Segment");
   for (vtkIdType voxel = 0; voxel < labels->GetNumberOfTuples(); ++voxel)
   {
     labels->SetTuple1(voxel, this->Segmented.Parts[this->Segmented.PartOf[voxel]].Label);
   }
-  if (this->Range > 0.0)
+  if (!isSingle)
+  {
+    whole.RmsPercent = WorstRms(this->Segmented, models, this->Outer, at);
+  }
+  else if (this->Range > 0.0)
   {
     const auto voxels = static_cast<double>(labels->GetNumberOfTuples());
     whole.RmsPercent = 100.0 * std::sqrt(squares / voxels) / this->Range;
@@ -444,6 +444,6 @@ SegmentFits FitSegments(vtkImageData* image, const SegmentFitOptions& options, v
 {
   SegmentFitter fitter(image, options, chain);
   why = fitter.Fit(from, to);
-  return fitter.Join(rounds);
+  return fitter.Join(rounds, to);
 }
 }

@@ -24,17 +24,25 @@ struct SegmentFitOptions
   std::string Array;                ///< point array to fit
   std::vector<std::string> Further; ///< and those beside it
   int MaximumControlPoints = 0;     ///< of all segments together
-  double RmsTolerance = 0.0;        ///< percent of the array's range over the whole image; 0: none
+  double RmsTolerance = 0.0;        ///< percent of each array's range over the whole image; 0: none
   std::vector<FilledDomains> Domains; ///< of cubes; several of a segment are compared
   double LargestShapeDistance = 0.0;  ///< as in vtkTSplineFit
   bool Compared = true; ///< whether a fit over a domain must be better than that over the box
+
+  std::vector<std::string> Arrays() const
+  {
+    std::vector<std::string> arrays{ this->Array };
+    arrays.insert(arrays.end(), this->Further.begin(), this->Further.end());
+    return arrays;
+  }
 };
 
 struct SegmentFits
 {
   TSplineModel Model;
   vtkIdType ControlPoints; ///< distinct ones
-  double RmsPercent;       ///< of the round trip, of the first array's range over the whole image
+  /// Of the round trip, of the range over the whole image; of several arrays the largest.
+  double RmsPercent;
 };
 
 /**

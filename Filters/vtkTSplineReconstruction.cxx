@@ -252,11 +252,9 @@ void vtkTSplineReconstruction::LayOut(vtkPolyData* surfaces, const std::vector<G
     vtkNew<vtkPolycubeDomain> domain;
     domain->SetController(nullptr);
     domain->SetInputData(surfaces);
-    ChainStep layOut(domain, chain, Bounded, LaidOut);
-    layOut.Run();
+    ChainStep(domain, chain, Bounded, LaidOut).RunTelling();
     patches->ShallowCopy(domain->GetPatches());
     polycubes->ShallowCopy(domain->GetPolycube());
-    this->Warn(layOut.Warnings());
     this->Warn(LeaveOutInverted(patches, polycubes));
     return;
   }
@@ -334,12 +332,10 @@ vtkSmartPointer<vtkImageData> vtkTSplineReconstruction::Split(
     segmentation->SetInputArrayToProcess(
       0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, image->GetPointData()->GetArrayName(0));
     segmentation->SetNumberOfSegments(this->NumberOfSegments);
-    ChainStep segment(segmentation, chain, 0.0, Segmented);
-    segment.Run();
-    this->Warn(segment.Warnings());
+    ChainStep(segmentation, chain, 0.0, Segmented).RunTelling();
     topology->SetInputData(segmentation->GetOutput());
   }
-  ChainStep(topology, chain, Segmented, Whole).Run();
+  ChainStep(topology, chain, Segmented, Whole).RunTelling();
   return vtkImageData::SafeDownCast(topology->GetOutputDataObject(0));
 }
 
@@ -361,7 +357,7 @@ void vtkTSplineReconstruction::FitParts(vtkImageData* image, bool labelled,
     vtkNew<vtkSegmentBoundary> boundary;
     boundary->SetController(nullptr);
     boundary->SetInputData(segments);
-    ChainStep(boundary, chain, Whole, Bounded).Run();
+    ChainStep(boundary, chain, Whole, Bounded).RunTelling();
     vtkPolyData* surfaces = vtkPolyData::GetData(outputVector, SURFACES);
     surfaces->ShallowCopy(boundary->GetOutput());
     if (this->Domain != SEGMENTS)
@@ -409,7 +405,7 @@ int vtkTSplineReconstruction::RequestData(
       {
         throw std::invalid_argument("The image has no points.");
       }
-      Chain chain{ this, {} };
+      Chain chain{ this, {}, {} };
       const std::vector<vtkDataArray*> arrays = this->ChosenArrays(input);
       if (this->Domain == BOX)
       {
@@ -426,6 +422,7 @@ int vtkTSplineReconstruction::RequestData(
         this->FitParts(
           MakeImage(input, arrays, labels), labels != nullptr, given, chain, outputVector);
       }
+      this->Warn(chain.Warnings);
       WriteSeconds(chain, vtkTable::GetData(outputVector, ROUNDS));
       return 1;
     });

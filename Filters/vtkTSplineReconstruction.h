@@ -17,14 +17,18 @@
  * trip is kept. Cubes that are less accurate than the box with an eighth of the control points
  * already (64 for each block, if that is more) are not tried with all. Segments whose domains share
  * a surface, one around another or side by side, are fitted over it together, with layers: there is
- * no gap between them, while attributes jump; where boxes are more accurate for them, or one has
- * folds, each is fitted by itself. Then one spline is fitted over the whole image, and if it is
- * more accurate than all segments together (or, where both meet the tolerance, has fewer control
- * points), it is the result, and a warning says so. With Domain GIVEN the segments with a domain in
- * the second input are fitted over that. A warning tells why a segment with a domain stays with its
- * box, or with cubes without layers: half or more of the blocks that were found are inverted
- * between their corners, folds, voxels that are missed. Up to 2 % of a segment's voxels may be
- * missed; these are counted to the lowest segment, which is therefore always fitted over its box.
+ * no gap between them, while attributes jump; where boxes are more accurate for them, or a block
+ * mesh or the spline has folds, each is fitted by itself. Segments for which one of these filters
+ * fails are left out of the domains, and the others are tried again. Then one spline is fitted over
+ * the whole image, and if it is more accurate than all segments together (or, where both meet the
+ * tolerance, has fewer control points), it is the result, and a warning says so. With Domain GIVEN
+ * the segments with a domain in the second input are fitted over that. A warning tells why a
+ * segment with a domain stays with its box, or with cubes without layers: half or more of the
+ * blocks that were found are inverted between their corners, folds, voxels that are missed. Up to 2
+ * % of a segment's voxels may be missed, since the spline does not pass through them or they have
+ * no Parameter; these are counted to the lowest segment, which is therefore always fitted over its
+ * box. What the filters warn of is told. Of several attributes the one with the largest error, in
+ * parts of its range, decides.
  *
  * @par Input
  * Port 0: a vtkImageData with two or more points along each axis. The point array to fit is chosen
@@ -41,14 +45,14 @@
  *
  * @par Output
  * Port 0: the T-spline grid; the control points' arrays Segment and Block tell whose they are.
- * Port 1: vtkTable, the rounds of all fits, with the columns of vtkTSplineFit; and, but not of
- * one spline over the whole image, Segment, Together (int32: the lowest of the segments that were
+ * Port 1: vtkTable, the rounds of all fits, with the columns of vtkTSplineFit; and, but not of one
+ * spline over the whole image, Segment, Together (int32: the lowest of the segments that were
  * fitted at once; they have the same rounds), Range (double, of the array in these, of which RMS
  * and MaximumError are parts), SegmentRMS (double, percent of Range: what the last round left in
- * the segment itself), GradientJump (double, root mean square, of vtkTSplineFit) and Domain
- * (string: SegmentBox, Cubes or LayeredCubes). Field data: Step (string) and StepSeconds (double),
- * where the time went: the names of the filters without "vtk", FitOverBox and FitOverCubes. Unless
- * Domain is BOX also:
+ * the segment itself; NaN with several attributes), GradientJump (double, root mean square, of
+ * vtkTSplineFit) and Domain (string: SegmentBox, Cubes or LayeredCubes). Field data: Step (string)
+ * and StepSeconds (double), where the time went: the names of the filters without "vtk", FitOverBox
+ * and FitOverCubes. Unless Domain is BOX also:
  * Port 2: the image with the point array Segment. Port 3: vtkPolyData, the surfaces of the segments
  * of vtkSegmentBoundary.
  * With Domain AUTOMATIC or GIVEN also, of those segments that have a domain:
@@ -159,8 +163,8 @@ public:
 
   ///@{
   /**
-   * A segment is not refined further when its root mean square error is at most this many percent
-   * of the range of the array over the image. 0 is no such limit. Valid range [0, 100]. Default is
+   * A segment is not refined further when its root mean square error, of each array that is fitted,
+   * is at most this many percent of the array's range over the image. 0 is no such limit. Valid range [0, 100]. Default is
    * 0.1.
    */
   vtkSetClampMacro(RMSTolerance, double, 0.0, 100.0);
