@@ -65,11 +65,11 @@ inline vtkSmartPointer<vtkTSplineReconstruction> Reconstruct(vtkImageData* image
   return reconstruction;
 }
 
-// The report on a reconstruction, with all that it tells.
-inline vtkNew<vtkTable> ReportOn(vtkTSplineReconstruction* reconstruction)
+// The report on a reconstruction, with all that it tells, on one of its images.
+inline vtkNew<vtkTable> ReportOn(vtkTSplineReconstruction* reconstruction, int image = 2)
 {
   vtkNew<vtkReconstructionReport> report;
-  report->SetInputConnection(0, reconstruction->GetOutputPort(2));
+  report->SetInputConnection(0, reconstruction->GetOutputPort(image));
   report->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
   report->SetTSplineConnection(reconstruction->GetOutputPort());
   report->SetSurfacesConnection(reconstruction->GetOutputPort(4));
