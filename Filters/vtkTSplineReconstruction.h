@@ -164,8 +164,8 @@ public:
   ///@{
   /**
    * A segment is not refined further when its root mean square error, of each array that is fitted,
-   * is at most this many percent of the array's range over the image. 0 is no such limit. Valid range [0, 100]. Default is
-   * 0.1.
+   * is at most this many percent of the array's range over the image. 0 is no such limit. Valid
+   * range [0, 100]. Default is 0.1.
    */
   vtkSetClampMacro(RMSTolerance, double, 0.0, 100.0);
   vtkGetMacro(RMSTolerance, double);
