@@ -25,7 +25,7 @@ SIZE = 304
 # From where, and what is up.
 VIEWS = {"tooth=105+": ((0.6, -1, 0.3), (0.15, 0, 1)), "ankle_128=40": ((1, -1, -0.5), (0, 0, -1)),
          "fuel=15": ((0.8, -1, 0.5), (0, 0, 1)), "hydrogen_atom=20": ((1, -1, 0.6), (0, 0, 1)),
-         "nucleon=150": ((1, -1, 0.6), (0, 0, 1))}
+         "nucleon=150": ((1, -1, 0.6), (0, 0, 1)), "walnut=5000": ((1, -1, 0.6), (0, 0, 1))}
 
 
 def draw_domain(renderer, folder, run):
