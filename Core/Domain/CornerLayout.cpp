@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -142,8 +143,18 @@ void TraceAlong(
   }
   if (!trace(to, guide.Length(border)))
   {
-    throw std::runtime_error("Border " + std::to_string(border) + " makes a detour.");
+    throw std::runtime_error("The path makes a detour.");
   }
+}
+
+// For the user, who has picked it.
+std::string NameOf(const LayoutBuilder& builder, const Polycube& polycube, Index corner)
+{
+  const Eigen::Vector3d& place = builder.Mesh.Points[builder.Corners[corner]];
+  std::ostringstream name;
+  name << CornerName(polycube, corner) << " (" << place[0] << ", " << place[1] << ", " << place[2]
+       << " in space)";
+  return name.str();
 }
 
 void TraceAll(LayoutBuilder& builder, const Polycube& polycube,
@@ -163,13 +174,21 @@ void TraceAll(LayoutBuilder& builder, const Polycube& polycube,
     const Polycube::Edge& edge = polycube.Edges[e];
     const PathEnd from = SectorFor(builder, polycube, edge.From, e, traced);
     const PathEnd to = SectorFor(builder, polycube, edge.To, e, traced);
-    if (guide)
+    try
     {
-      TraceAlong(builder, *guide, e, from, to);
+      if (guide)
+      {
+        TraceAlong(builder, *guide, e, from, to);
+      }
+      else
+      {
+        TracePath(builder.Mesh, from, to, e);
+      }
     }
-    else
+    catch (const std::runtime_error& error)
     {
-      TracePath(builder.Mesh, from, to, e);
+      throw std::runtime_error("From " + NameOf(builder, polycube, edge.From) + " to " +
+                               NameOf(builder, polycube, edge.To) + ": " + error.what());
     }
     traced[e] = 1;
     if (builder.IsShredded())

@@ -116,12 +116,13 @@ double Volume(const std::vector<Eigen::Vector3d>& points, const Triangle& c)
 {
   return points[c[0]].dot(points[c[1]].cross(points[c[2]])) / 6.0;
 }
+}
 
+//------------------------------------------------------------------------------
 std::string CornerName(const Polycube& polycube, Index corner)
 {
   return "corner " + std::to_string(corner) + " at " + NameOf(polycube.Points[corner]) +
          " of the polycube";
-}
 }
 
 //------------------------------------------------------------------------------

@@ -9,6 +9,9 @@
 
 namespace trivariate
 {
+/// "corner 3 at (1, 1, 0) of the polycube", for messages.
+std::string CornerName(const Polycube& polycube, Index corner);
+
 /// Throws std::invalid_argument where there are more or fewer places than corners, the places are
 /// those of a mirrored polycube, or surface and polycube differ in their numbers of components or
 /// handles.

@@ -155,8 +155,7 @@ std::vector<Index> TracePath(
     std::vector<Crossing> sleeve = FindSleeve(mesh, from, to);
     if (sleeve.empty())
     {
-      throw std::runtime_error("No path from point " + std::to_string(from.Point) + " to point " +
-                               std::to_string(to.Point) + ": other borders lie between them.");
+      throw std::runtime_error("There is no path: other borders lie between its ends.");
     }
     if (!SplitAlong(mesh, to.Point, std::move(sleeve), worthwhile, points))
     {

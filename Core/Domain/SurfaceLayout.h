@@ -75,8 +75,9 @@ struct GivenBorder
  * Throws std::invalid_argument when there are more or fewer places than corners, one is farther
  * than `farthest` from the surface, two fall on one point, the places are those of a mirrored
  * polycube, or surface and polycube differ in their numbers of components or handles;
- * std::runtime_error, naming the patch, where the borders around a handle do not bound discs, and
- * where paths have to wind around each other so much that they cut the surface to shreds.
+ * std::runtime_error, naming the patch, where the borders around a handle do not bound discs,
+ * naming two corners, where others leave no path between them around a handle, and where paths
+ * have to wind around each other so much that they cut the surface to shreds.
  */
 SurfaceLayout LayoutFromCorners(const SurfaceMesh& mesh, const Polycube& polycube,
   const std::vector<Eigen::Vector3d>& corners, const Execution& execution,
