@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * Whether patches of a surface are the faces of a polycube. Each routine returns one message for
- * each failure, naming the patch, corner or border; none where all is well.
+ * each failure, naming the patch, corner or border; none where all is well. CheckLayout looks at
+ * every domain that is found, picked, laid out on more triangles or relaxed; CheckCharts at charts
+ * before they have a polycube (ChartDomain.cpp), and CheckContact (ContactPatch.h) at each face
+ * that two segments share (SegmentContacts.cxx); all of them begin with CheckPatches but the last.
  */
 #ifndef trivariate_LayoutCheck_h
 #define trivariate_LayoutCheck_h
