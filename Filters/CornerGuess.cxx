@@ -35,9 +35,24 @@ bool CornerGuess::IsFor(const SurfaceMesh& mesh, const DomainOptions& options) c
 //------------------------------------------------------------------------------
 const SegmentDomain& CornerGuess::Automatic(const Execution& execution)
 {
+  if (!this->Found && this->Failure.empty())
+  {
+    try
+    {
+      this->SetAutomatic(DomainOf(this->Mesh, this->Options, execution));
+    }
+    catch (const std::logic_error& error)
+    {
+      this->SetFailure(error.what());
+    }
+    catch (const std::runtime_error& error)
+    {
+      this->SetFailure(error.what());
+    }
+  }
   if (!this->Found)
   {
-    this->SetAutomatic(DomainOf(this->Mesh, this->Options, execution));
+    throw std::runtime_error(this->Failure);
   }
   return *this->Found;
 }
@@ -46,6 +61,14 @@ const SegmentDomain& CornerGuess::Automatic(const Execution& execution)
 void CornerGuess::SetAutomatic(SegmentDomain domain)
 {
   this->Found = std::make_unique<SegmentDomain>(std::move(domain));
+  this->Failure.clear();
+}
+
+//------------------------------------------------------------------------------
+void CornerGuess::SetFailure(std::string why)
+{
+  this->Found.reset();
+  this->Failure = std::move(why);
 }
 
 //------------------------------------------------------------------------------
@@ -81,9 +104,19 @@ Polycube CornerGuess::Shape(
 }
 
 //------------------------------------------------------------------------------
-std::array<Eigen::Vector3d, 8> CornerGuess::OneCube(const Execution& execution)
+const CornerGuess::EightCorners& CornerGuess::OneCube(const Execution& execution)
 {
-  std::array<Eigen::Vector3d, 8> corners;
+  if (!this->FoundCube)
+  {
+    this->FoundCube = std::make_unique<EightCorners>(this->FindOneCube(execution));
+  }
+  return *this->FoundCube;
+}
+
+//------------------------------------------------------------------------------
+CornerGuess::EightCorners CornerGuess::FindOneCube(const Execution& execution)
+{
+  EightCorners corners;
   try
   {
     const SegmentDomain* domain = &this->Automatic(execution.Part(0.0, 0.5));
@@ -119,7 +152,7 @@ std::vector<Eigen::Vector3d> CornerGuess::Corners(const Polycube& shape, const E
     const auto begin = this->Found->Places.begin();
     return { begin, begin + shape.NumberOfCorners };
   }
-  const std::array<Eigen::Vector3d, 8> corners = this->OneCube(execution);
+  const EightCorners& corners = this->OneCube(execution);
   Eigen::AlignedBox3d lattice;
   for (const LatticePoint& point : shape.Points)
   {

@@ -6,7 +6,9 @@
 
 #include "Search/FindDomain.h"
 
+#include <array>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace trivariate
@@ -22,9 +24,11 @@ public:
 
   bool IsFor(const SurfaceMesh& mesh, const DomainOptions& options) const;
 
-  /// What FindDomain finds, once.
+  /// What DomainOf finds, sought once. Throws its error, also every other time.
   const SegmentDomain& Automatic(const Execution& execution);
   void SetAutomatic(SegmentDomain domain);
+  /// There is none, and why.
+  void SetFailure(std::string why);
 
   /**
    * size[0] x size[1] x size[2] cubes without those switched off; all sizes zero: the automatic
@@ -43,10 +47,16 @@ public:
   const SurfaceMesh Mesh;
 
 private:
-  std::array<Eigen::Vector3d, 8> OneCube(const Execution& execution);
+  using EightCorners = std::array<Eigen::Vector3d, 8>;
+
+  // Of one cube, sought once.
+  const EightCorners& OneCube(const Execution& execution);
+  EightCorners FindOneCube(const Execution& execution);
 
   DomainOptions Options;
   std::unique_ptr<SegmentDomain> Found;
+  std::string Failure; // empty: not sought, or found
+  std::unique_ptr<EightCorners> FoundCube;
 };
 }
 

@@ -225,9 +225,27 @@ SegmentDomain DomainOf(
 }
 
 //------------------------------------------------------------------------------
-SurfacePiece OnlyPieceOf(const LabelledSurface& surface, int segment)
+std::vector<SurfacePiece> BoundedPiecesOf(const LabelledSurface& surface, int segment)
 {
   std::vector<SurfacePiece> pieces = PiecesOf(surface, segment);
+  double volume = 0.0;
+  for (const SurfacePiece& piece : pieces)
+  {
+    volume += piece.Volume;
+  }
+  if (volume < 0.0)
+  {
+    throw std::invalid_argument("Its surface is seen from inside (a volume of " +
+                                std::to_string(volume) +
+                                "): it lies around the others, as a background does.");
+  }
+  return pieces;
+}
+
+//------------------------------------------------------------------------------
+SurfacePiece OnlyPieceOf(const LabelledSurface& surface, int segment)
+{
+  std::vector<SurfacePiece> pieces = BoundedPiecesOf(surface, segment);
   if (pieces.size() != 1)
   {
     throw std::invalid_argument(
@@ -293,7 +311,7 @@ DomainSet FindDomains(const LabelledSurface& surface, const std::vector<int>& se
     attempt(segments[i],
       [&]()
       {
-        SegmentPieces segment{ segments[i], PiecesOf(surface, segments[i]) };
+        SegmentPieces segment{ segments[i], BoundedPiecesOf(surface, segments[i]) };
         if (segment.Pieces.size() > 1)
         {
           others.push_back(std::move(segment));

@@ -69,8 +69,11 @@ void AddDomainFromCorners(const LabelledSurface& surface, int segment, const Pol
 /// A sentence on blocks that are inverted; empty where there are none.
 std::string RemarkOn(const BlocksOfSegment& segment);
 
-/// The only piece of a segment's surface. Throws std::invalid_argument where there are more, or
-/// none.
+/// PiecesOf a segment, which throws std::invalid_argument where there are none. Throws it too where
+/// the segment has no volume inside of them, as what lies around all others has not.
+std::vector<SurfacePiece> BoundedPiecesOf(const LabelledSurface& surface, int segment);
+
+/// The only one of BoundedPiecesOf. Throws std::invalid_argument where there are more.
 SurfacePiece OnlyPieceOf(const LabelledSurface& surface, int segment);
 
 /// FindDomain, with a hint for the user where the surface has handles.

@@ -25,6 +25,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -43,6 +44,16 @@ std::vector<Eigen::Vector3d> PointsOf(const std::vector<double>& coordinates)
     points.emplace_back(coordinates[i], coordinates[i + 1], coordinates[i + 2]);
   }
   return points;
+}
+
+// In their order, each once.
+std::vector<int> Unique(const std::vector<int>& segments)
+{
+  std::vector<int> unique;
+  std::copy_if(segments.begin(), segments.end(), std::back_inserter(unique),
+    [&unique](int segment)
+    { return std::find(unique.begin(), unique.end(), segment) == unique.end(); });
+  return unique;
 }
 }
 
@@ -266,7 +277,15 @@ int vtkPolycubeDomain::RequestData(
           return *answer;
         }
       }
-      this->MakeDomains(surface, points ? corners.Get() : nullptr, outputVector);
+      try
+      {
+        this->MakeDomains(surface, points ? corners.Get() : nullptr, outputVector);
+      }
+      catch (const Aborted&)
+      {
+        this->Internal->Guess.reset(); // or GetStartCorners() would search, and not be stopped
+        throw;
+      }
       return 1;
     });
 }
@@ -276,7 +295,8 @@ void vtkPolycubeDomain::MakeDomains(
   vtkPolyData* input, vtkPolyData* corners, vtkInformationVector* outputVector)
 {
   const LabelledSurface surface = ReadSurface(input);
-  const std::vector<int> chosen = this->Segments.empty() ? SegmentsIn(surface) : this->Segments;
+  const std::vector<int> chosen =
+    this->Segments.empty() ? SegmentsIn(surface) : Unique(this->Segments);
   DomainSettings settings;
   settings.Options.CornerCost = this->CornerCost;
   settings.Options.MostCubes = this->MostCubes;
@@ -288,12 +308,21 @@ void vtkPolycubeDomain::MakeDomains(
 
   DomainSet domains;
   PickedCorners picked;
+  if (this->Mode == MANUAL && corners && corners->GetNumberOfPoints() == 0)
+  {
+    throw std::invalid_argument("The second input has no corners.");
+  }
   if (this->Mode == AUTOMATIC)
   {
     domains = FindDomains(surface, chosen, settings, SMPExecution(this));
     if (this->Internal->Guess && domains.Segments.size() == 1)
     {
       this->Internal->Guess->SetAutomatic(domains.Surfaces[0].Domain);
+    }
+    else if (this->Internal->Guess && !domains.Failures.empty())
+    {
+      const std::string name = "Segment " + std::to_string(chosen[0]) + ": ";
+      this->Internal->Guess->SetFailure(domains.Failures.front().substr(name.size()));
     }
   }
   else if (chosen.size() != 1 && HaveSegments(corners))
@@ -334,6 +363,10 @@ void vtkPolycubeDomain::MakeDomains(
     catch (const std::invalid_argument& error)
     {
       throw std::invalid_argument("Segment " + std::to_string(chosen[0]) + ": " + error.what());
+    }
+    catch (const std::runtime_error& error)
+    {
+      throw std::runtime_error("Segment " + std::to_string(chosen[0]) + ": " + error.what());
     }
   }
   std::string failures;

@@ -5,13 +5,17 @@
  * @brief   cubes as the parameter domain of a segment, and their faces laid out on its surface
  *
  * Each segment gets a group of glued cubes. The corners of the group lie on the surface of the
- * segment; geodesics between them, which never cross, cut the surface into patches, one for each
- * face between a cube and the outside. On a patch one of the parameters u, v, w is constant.
+ * segment; borders between them, which never cross, cut the surface into patches, one for each face
+ * between a cube and the outside. On a patch one of the parameters u, v, w is constant. Between
+ * picked corners borders are geodesics; those that are found follow the normals and are nearly as
+ * short.
  *
  * Automatic: cubes, corners and patches are found, so that the normals of the surface point along
  * the axes of the patches, at a cost for each corner; what is so bent that the hexahedron between
  * the corners of a cube would be inverted is cut into a chain of cubes. A segment with one cavity
- * is a shell around it, with a block on each patch.
+ * is a shell around it, with a block on each patch. A segment with handles gets cubes around its
+ * holes where the normals of its surface show such cubes, as of a torus or a box with a hole; else
+ * the message names the place of a handle.
  *
  * What neighbours share: a segment that fills the cavity of another has that surface in common with
  * it, its corners, patches and coordinates. Two segments without cavities that touch in one disc
@@ -23,12 +27,12 @@
  * Manual: the shape is NumberOfCubes, without those that are switched off, and each corner of the
  * shape has a point near the surface, to which it is moved. Corners are those lattice points of the
  * shape that lie on its boundary, in order of w, then v, then u: of one cube (0, 0, 0), (1, 0, 0),
- * (0, 1, 0), (1, 1, 0), (0, 0, 1), ... Their points come from the second input or from
- * CornerPositions; where there are none, from the corners that were found automatically. Points of
- * the second input may be for several segments: their point array Segment says whose each is, and
- * the order counts within each segment. All of these have the one shape, or each its automatic one.
- * Segments without corners get their automatic domain. Those with corners share nothing with the
- * segments that they touch; a warning names them.
+ * (0, 1, 0), (1, 1, 0), (0, 0, 1), ... Their points come from the second input, which must have
+ * some, or from CornerPositions; where there are neither, from the corners that were found
+ * automatically. Points of the second input may be for several segments: their point array Segment
+ * says whose each is, and the order counts within each segment. All of these have the one shape, or
+ * each its automatic one. Segments without corners get their automatic domain. Those with corners
+ * share nothing with the segments that they touch; a warning names them.
  *
  * Layered, the default: every patch gets a block of its own along the surface, around cubes with
  * corners inside: 8 + 8 corners and 7 blocks for one cube. A smooth surface is not forced into a
@@ -58,8 +62,8 @@
  *   corners were given), how far each was moved, 0 where none was given.
  * - cells: Segment; Block (int32), the group of cubes that shares one (u, v, w) grid: all of a
  *   segment, or each by itself where there are layers; Patch (int32), on which the block stands, or
- *   -1; Alignment (double), of the segment: the mean over its surface of the cosine between the
- *   normal and the axis of the patch, 1 where all fit.
+ *   -1; Alignment (double), of the segment: the mean over its outer surface of the cosine between
+ * the normal and the axis of the patch, 1 where all fit.
  *
  * Port 2, borders: vtkPolyData with a line for each border between two patches.
  * - points: CornerId (int32), -1 but for the ends. cells: BorderPatches (int32 x 2), on the left
@@ -76,10 +80,11 @@
  * result as one process would, the others give empty outputs.
  *
  * @par Errors
- * A surface that is empty, not of triangles, open or not two-manifold; a segment that is not there;
- * in manual mode a corner of a segment that gets no domain, corners fewer or more than the shape
- * has, two at one place, farther than SnapLimit from the surface, mirrored. Where some of several
- * segments get no domain, a warning says why; where none gets one, an error does.
+ * A surface that is empty, not of triangles, open or not two-manifold; a segment that is not there,
+ * or lies around the others; in manual mode a corner of a segment that gets no domain, corners
+ * fewer or more than the shape has, none from a second input, two at one place, farther than
+ * SnapLimit from the surface, mirrored. Where some of several segments get no domain, a warning
+ * says why; where none gets one, an error does.
  *
  * @sa vtkSegmentBoundary vtkSegmentTopology
  */
@@ -122,7 +127,8 @@ public:
 
   ///@{
   /**
-   * The segments that get a domain. Default is none, which means all but 0, the background.
+   * The segments that get a domain, one each however often it is named. Default is none, which
+   * means all but 0, the background.
    */
   void AddSegment(int segment);
   void ClearSegments();

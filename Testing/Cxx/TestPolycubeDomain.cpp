@@ -145,6 +145,13 @@ TEST(PolycubeDomain, TurnsEachSegmentsSurfaceOutward)
   EXPECT_EQ(domain->GetSegment(1), -1);
   ExpectSound(domain, surface, { 5 });
   EXPECT_EQ(ValuesOf(CellArray(domain->GetPolycube(), "Segment")), std::set<int>{ 5 });
+
+  domain->AddSegment(2); // named twice: once is enough
+  domain->AddSegment(5);
+  domain->Update();
+  ExpectSound(domain, surface, { 2, 5 });
+  EXPECT_EQ(domain->GetPolycube()->GetNumberOfCells(), 14);
+  EXPECT_EQ(domain->GetPolycube()->GetNumberOfPoints(), 4 * 8 - 4);
 }
 
 TEST(PolycubeDomain, SharesTheSurfaceBetweenNestedSegments)
@@ -243,6 +250,8 @@ TEST(PolycubeDomain, ReportsProgressAndStops)
   domain->AddObserver(vtkCommand::ProgressEvent, stop);
   domain->Update();
   EXPECT_EQ(domain->GetPatches()->GetNumberOfCells(), 0);
+  // Nor is a search begun now, which nothing could stop.
+  EXPECT_EQ(domain->GetStartCorners()->GetNumberOfTuples(), 1);
 }
 
 TEST(PolycubeDomain, SaysWhatIsWrongWithASurface)
@@ -290,6 +299,12 @@ TEST(PolycubeDomain, SaysWhatIsWrongWithASurface)
   domain->SetInputData(ball);
   domain->AddSegment(7);
   ExpectFault(domain, log, "Segment 7: There is none such; the surface has: 1.");
+  domain->ClearSegments();
+  domain->AddSegment(0);
+  ExpectFault(domain, log, "Segment 0: Its surface is seen from inside");
+  domain->SetModeToManual();
+  ExpectFault(domain, log, "Segment 0: Its surface is seen from inside");
+  domain->SetModeToAutomatic();
   domain->ClearSegments();
 
   const vtkNew<vtkPolyData> two = SurfaceOf(

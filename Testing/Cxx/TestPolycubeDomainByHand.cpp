@@ -5,6 +5,7 @@
 #include "vtkDoubleArray.h"
 #include "vtkPoints.h"
 
+#include <ctime>
 #include <limits>
 #include <vector>
 
@@ -102,6 +103,26 @@ TEST(PolycubeDomain, StartsFromTheCornersFound)
   domain->Update();
   EXPECT_EQ(domain->GetPolycube()->GetNumberOfCells(), 3 + 14);
   ExpectSound(domain, surface, { 1 });
+}
+
+// Corners to start from are sought once for a surface, also where one cube is not what was found.
+TEST(PolycubeDomain, SeeksCornersOnce)
+{
+  const vtkNew<vtkPolyData> surface = SurfaceOf(11, LLabel);
+  vtkNew<vtkPolycubeDomain> domain;
+  domain->SetInputData(surface);
+  domain->Update();
+  ASSERT_GT(domain->GetPolycube()->GetNumberOfCells(), 7) << "more than one cube";
+  const auto seconds = [&domain](int w)
+  {
+    domain->SetNumberOfCubes(1, 1, w);
+    const std::clock_t begin = std::clock();
+    EXPECT_EQ(StartCornersOf(domain).size(), 4u * (w + 1));
+    return double(std::clock() - begin) / CLOCKS_PER_SEC;
+  };
+  const double first = seconds(2);
+  EXPECT_LT(seconds(2), 0.2 * first);
+  EXPECT_LT(seconds(3), 0.2 * first);
 }
 
 TEST(PolycubeDomain, LaysOutAnLByHand)

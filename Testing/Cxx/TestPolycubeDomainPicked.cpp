@@ -184,4 +184,7 @@ TEST(PolycubeDomain, SaysWhatIsWrongWithCornersOfSegments)
   ExpectFault(domain, log, "8 corners; 7 were given");
   domain->SetInputData(1, Points({}));
   ExpectFault(domain, log, "has no corners");
+  domain->AddSegment(2);
+  domain->SetInputData(1, Points({}, false));
+  ExpectFault(domain, log, "has no corners");
 }

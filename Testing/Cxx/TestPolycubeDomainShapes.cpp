@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Shapes with cavities and with branches, and one of a real-valued volume.
+#include "DomainChecks.h"
+#include "WarningLog.h"
+#include "vtkHydrogenOrbitalSource.h"
+#include "vtkSegmentTopology.h"
+
+#include "vtkDataArray.h"
+#include "vtkImageData.h"
+#include "vtkSMPTools.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+using namespace trivariate_testing;
+
+namespace
+{
+std::vector<double> ValuesOfAll(vtkDataArray* array)
+{
+  std::vector<double> values;
+  for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
+  {
+    values.push_back(array->GetVariantValue(i).ToDouble());
+  }
+  return values;
+}
+}
+
+//------------------------------------------------------------------------------
+// An L keeps a branch, so all kinds of trials are made.
+TEST(PolycubeDomain, GivesAnLForAnyNumberOfThreads)
+{
+  const vtkNew<vtkPolyData> surface = SurfaceOf(11,
+    [](const double* p)
+    {
+      const bool inside = std::abs(p[0]) < 8.5 && std::abs(p[1]) < 8.5 && std::abs(p[2]) < 4.5;
+      return int(inside && (p[0] < 0 || p[1] < 0));
+    });
+  std::vector<std::vector<double>> results;
+  for (const int threads : { 1, 2, 3 })
+  {
+    vtkSMPTools::Initialize(threads);
+    vtkNew<vtkPolycubeDomain> domain;
+    domain->SetInputData(surface);
+    domain->Update();
+    vtkSMPTools::Initialize(0);
+    EXPECT_GT(domain->GetPolycube()->GetNumberOfCells(), 7);
+    std::vector<double>& values = results.emplace_back();
+    vtkDataArray* const arrays[] = { domain->GetPatches()->GetPoints()->GetData(),
+      CellArray(domain->GetPatches(), "Patch"), CellArray(domain->GetPatches(), "PatchAxis"),
+      domain->GetPolycube()->GetPoints()->GetData(),
+      CellArray(domain->GetPolycube(), "Alignment") };
+    for (vtkDataArray* array : arrays)
+    {
+      const std::vector<double> own = ValuesOfAll(array);
+      values.insert(values.end(), own.begin(), own.end());
+    }
+    EXPECT_EQ(values, results.front()) << threads << " threads";
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(PolycubeDomain, SaysWhyCavitiesAreNotShared)
+{
+  const auto isIn = [](const double* p, double x, double radius)
+  { return std::hypot(p[0] - x, p[1], p[2]) < radius; };
+  const vtkNew<vtkPolyData> cheese = SurfaceOf(12, [&](const double* p)
+    { return BoxLabel(p, 10, 6, 6) && !isIn(p, -5.0, 2.5) && !isIn(p, 5.0, 2.5) ? 1 : 0; });
+  vtkNew<vtkPolycubeDomain> domain;
+  domain->SetInputData(cheese);
+  ErrorLog log(domain);
+  ExpectFault(domain, log, "Segment 1: Its surface has 3 pieces, 2 of them around cavities");
+
+  const vtkNew<vtkPolyData> neighbours = SurfaceOf(12,
+    [&](const double* p) {
+      return !BoxLabel(p, 10, 6, 6) || isIn(p, 5.0, 2.5) ? 0 : p[0] < 0.0 ? 1 : 2;
+    });
+  vtkNew<vtkPolycubeDomain> two;
+  two->SetInputData(neighbours);
+  const WarningLog warnings(two);
+  two->Update();
+  ExpectSound(two, neighbours, { 1, 2 });
+  EXPECT_TRUE(warnings.Says(
+    "Segments 1 and 2 touch but have separate domains there: one of them has a cavity."))
+    << warnings.Text;
+}
+
+//------------------------------------------------------------------------------
+TEST(PolycubeDomain, TakesTheEdgesOfACylinderByHand)
+{
+  const double radius = 7.5, half = 8.5;
+  const vtkNew<vtkPolyData> surface = SurfaceOf(11,
+    [&](const double* p) { return int(std::hypot(p[0], p[1]) < radius && std::abs(p[2]) < half); });
+  vtkNew<vtkPolycubeDomain> domain;
+  domain->SetInputData(surface);
+  domain->SetModeToManual();
+  domain->SetNumberOfCubes(1, 1, 1);
+  std::vector<Place> corners;
+  for (int i = 0; i < 8; ++i)
+  {
+    const double side = radius * std::sqrt(0.5);
+    corners.push_back({ i & 1 ? side : -side, i & 2 ? side : -side, i & 4 ? half : -half });
+    domain->AddCornerPosition(corners.back().data());
+  }
+  domain->Update();
+  ExpectSound(domain, surface, { 1 });
+  EXPECT_EQ(domain->GetPolycube()->GetNumberOfCells(), 7);
+  EXPECT_LT(domain->GetPolycube()->GetPointData()->GetArray("SnapDistance")->GetRange()[1], 0.8);
+  EXPECT_GT(CellArray(domain->GetPolycube(), "Alignment")->GetComponent(0, 0), 0.84);
+}
+
+//------------------------------------------------------------------------------
+// A density of real numbers, at five thresholds.
+TEST(PolycubeDomain, FindsDomainsOfAnOrbital)
+{
+  vtkNew<vtkHydrogenOrbitalSource> orbital;
+  orbital->SetDimensions(48, 48, 48);
+  orbital->Update();
+  vtkImageData* density = orbital->GetOutput();
+  vtkDataArray* values = density->GetPointData()->GetScalars();
+  ASSERT_NE(values, nullptr);
+  for (const double share : { 0.02, 0.05, 0.1, 0.2, 0.4 })
+  {
+    vtkNew<vtkIntArray> labels;
+    labels->SetName("Segment");
+    for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
+    {
+      labels->InsertNextValue(values->GetComponent(i, 0) > share * values->GetRange()[1] ? 1 : 0);
+    }
+    vtkNew<vtkImageData> image;
+    image->ShallowCopy(density);
+    image->GetPointData()->AddArray(labels);
+    vtkNew<vtkSegmentTopology> whole;
+    whole->SetInputData(image);
+    vtkNew<vtkSegmentBoundary> boundary;
+    boundary->SetInputConnection(whole->GetOutputPort());
+    boundary->UseDensityOff(); // its level is half-way between materials, not the threshold
+    vtkNew<vtkPolycubeDomain> domain;
+    domain->SetInputConnection(boundary->GetOutputPort());
+    domain->Update();
+    ExpectSound(domain, boundary->GetOutput(), { 1 });
+    ASSERT_GT(domain->GetPolycube()->GetNumberOfCells(), 0) << share;
+    EXPECT_GT(CellArray(domain->GetPolycube(), "Alignment")->GetComponent(0, 0), 0.77) << share;
+  }
+}
