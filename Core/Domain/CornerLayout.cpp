@@ -9,7 +9,6 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -147,16 +146,6 @@ void TraceAlong(
   }
 }
 
-// For the user, who has picked it.
-std::string NameOf(const LayoutBuilder& builder, const Polycube& polycube, Index corner)
-{
-  const Eigen::Vector3d& place = builder.Mesh.Points[builder.Corners[corner]];
-  std::ostringstream name;
-  name << CornerName(polycube, corner) << " (" << place[0] << ", " << place[1] << ", " << place[2]
-       << " in space)";
-  return name.str();
-}
-
 void TraceAll(LayoutBuilder& builder, const Polycube& polycube,
   const std::vector<Eigen::Vector3d>& corners, const std::vector<GivenBorder>& given,
   const BorderGuide* guide, const Execution& execution)
@@ -187,8 +176,8 @@ void TraceAll(LayoutBuilder& builder, const Polycube& polycube,
     }
     catch (const std::runtime_error& error)
     {
-      throw std::runtime_error("From " + NameOf(builder, polycube, edge.From) + " to " +
-                               NameOf(builder, polycube, edge.To) + ": " + error.what());
+      throw std::runtime_error("From " + CornerName(polycube, edge.From) + " to " +
+                               CornerName(polycube, edge.To) + ": " + error.what());
     }
     traced[e] = 1;
     if (builder.IsShredded())
