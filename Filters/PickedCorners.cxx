@@ -2,9 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PickedCorners.h"
 
+#include "vtkAppendPolyData.h"
 #include "vtkDataArray.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
 
 #include <algorithm>
 #include <iterator>
@@ -19,6 +24,30 @@ namespace
 std::string NameOf(int segment)
 {
   return "Segment " + std::to_string(segment);
+}
+
+// The same places of the same segments in the same order.
+bool AreSame(vtkPolyData* a, vtkPolyData* b)
+{
+  const auto same = [](vtkDataArray* first, vtkDataArray* second)
+  {
+    bool equal = (first == nullptr) == (second == nullptr);
+    equal =
+      equal && (!first || (first->GetNumberOfTuples() == second->GetNumberOfTuples() &&
+                            first->GetNumberOfComponents() == second->GetNumberOfComponents()));
+    for (vtkIdType i = 0; equal && first && i < first->GetNumberOfTuples(); ++i)
+    {
+      for (int c = 0; c < first->GetNumberOfComponents(); ++c)
+      {
+        equal = equal && first->GetComponent(i, c) == second->GetComponent(i, c);
+      }
+    }
+    return equal;
+  };
+  const auto placesOf = [](vtkPolyData* corners)
+  { return corners->GetPoints() ? corners->GetPoints()->GetData() : nullptr; };
+  return same(placesOf(a), placesOf(b)) && same(a->GetPointData()->GetArray(CornerSegmentName),
+                                             b->GetPointData()->GetArray(CornerSegmentName));
 }
 
 //------------------------------------------------------------------------------
@@ -57,6 +86,36 @@ bool HaveSegments(vtkPointSet* points)
 }
 
 //------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> GatherCorners(vtkPolyData* own, vtkMultiProcessController* controller)
+{
+  std::vector<vtkSmartPointer<vtkDataObject>> parts;
+  controller->Gather(own, parts, 0);
+  vtkNew<vtkAppendPolyData> append;
+  vtkPolyData* first = nullptr;
+  bool same = true;
+  for (vtkDataObject* part : parts)
+  {
+    vtkPolyData* corners = vtkPolyData::SafeDownCast(part);
+    first = first ? first : corners;
+    same = same && corners && AreSame(first, corners);
+    if (corners && corners->GetNumberOfPoints() > 0)
+    {
+      append->AddInputData(corners);
+    }
+  }
+  if (same && first)
+  {
+    return first;
+  }
+  if (append->GetNumberOfInputConnections(0) == 0)
+  {
+    return vtkSmartPointer<vtkPolyData>::New();
+  }
+  append->Update();
+  return append->GetOutput();
+}
+
+//------------------------------------------------------------------------------
 PickedCorners CornersBySegment(vtkPointSet* points, const std::vector<int>& chosen)
 {
   vtkDataArray* owners = points->GetPointData()->GetArray(CornerSegmentName);
@@ -67,10 +126,6 @@ PickedCorners CornersBySegment(vtkPointSet* points, const std::vector<int>& chos
                                 " components; it needs one, the segment's number.");
   }
   const std::vector<Eigen::Vector3d> places = ReadPoints(points);
-  if (places.empty())
-  {
-    throw std::invalid_argument("The second input has no corners.");
-  }
   PickedCorners picked;
   for (std::size_t i = 0; i < places.size(); ++i)
   {

@@ -6,11 +6,15 @@
 
 #include "SegmentDomains.h"
 
+#include "vtkSmartPointer.h"
+
 #include <functional>
 #include <map>
 #include <vector>
 
+class vtkMultiProcessController;
 class vtkPointSet;
+class vtkPolyData;
 
 namespace trivariate
 {
@@ -24,8 +28,15 @@ constexpr const char* CornerSegmentName = "Segment";
 bool HaveSegments(vtkPointSet* points);
 
 /**
+ * Corners of all processes, on process 0: in the order of these, each with its array Segment where
+ * all have it. Where all processes have the same ones, as from a source that knows of no pieces,
+ * they are taken once. Every process must call it.
+ */
+vtkSmartPointer<vtkPolyData> GatherCorners(vtkPolyData* own, vtkMultiProcessController* controller);
+
+/**
  * Points by their array Segment. Throws std::invalid_argument where it has more components than
- * one or a segment that is not among `chosen`, where there are no points, or one is not finite.
+ * one or a segment that is not among `chosen`, or one is not finite.
  */
 PickedCorners CornersBySegment(vtkPointSet* points, const std::vector<int>& chosen);
 

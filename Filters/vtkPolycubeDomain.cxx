@@ -266,11 +266,9 @@ int vtkPolycubeDomain::RequestData(
       }
       if (gathering)
       {
-        vtkNew<vtkPolyData> allCorners;
         surface->Initialize();
         GatherSurface(input, surface, this->Controller);
-        GatherSurface(corners, allCorners, this->Controller);
-        corners->ShallowCopy(allCorners);
+        corners->ShallowCopy(GatherCorners(corners, this->Controller));
         if (const auto answer =
               AnswerElsewhere(this, "Domains are made on one process", true, "", this->Controller))
         {

@@ -15,7 +15,8 @@
  * the corners of a cube would be inverted is cut into a chain of cubes. A segment with one cavity
  * is a shell around it, with a block on each patch. A segment with handles gets cubes around its
  * holes where the normals of its surface show such cubes, as of a torus or a box with a hole; else
- * the message names the place of a handle.
+ * the message names the place of a handle. Neither the order of the triangles nor where the surface
+ * lies changes what is found, nor a rotation where its principal axes are unique.
  *
  * What neighbours share: a segment that fills the cavity of another has that surface in common with
  * it, its corners, patches and coordinates. Two segments without cavities that touch in one disc

@@ -41,6 +41,7 @@ void PickCornersOfBar(ParameterChain& chain, bool mirrored)
   vtkNew<vtkPolyData> corners;
   corners->SetPoints(points);
   chain.Domain->SetMode(vtkPolycubeDomain::MANUAL);
+  chain.Domain->SetNumberOfCubes(1, 1, 1);
   chain.Domain->SetInputData(1, corners);
   chain.Domain->RelaxBordersOn();
 }

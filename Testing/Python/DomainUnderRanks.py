@@ -36,6 +36,23 @@ spherical = PolycubeDomain(Input=sphere)
 spherical.UpdatePipeline()
 arrays = save(domain, "")
 arrays["SphereCorners"] = save(spherical, "")["Points1"]
+
+# Corners that every rank has.
+shared = ProgrammableSource(OutputDataSetType="vtkPolyData", Script="""
+import vtk
+points = vtk.vtkPoints()
+for i in range(8):
+    points.InsertNextPoint(*(3.6 if i >> a & 1 else -3.2 for a in range(3)))
+self.GetPolyDataOutput().SetPoints(points)
+""")
+for name, corners in (("Shared", shared),):
+    picked = PolycubeDomain(Input=surface, Corners=corners, Mode="Manual", Segments=[2],
+                            NumberOfCubes=[1, 1, 1])
+    picked.UpdatePipeline()
+    data = servermanager.Fetch(
+        PassArrays(Input=OutputPort(picked, 1), PointDataArrays=["SnapDistance"]))
+    arrays[f"{name}Corners"] = vtk_to_numpy(data.GetPoints().GetData())
+    arrays[f"{name}Snaps"] = vtk_to_numpy(data.GetPointData().GetArray("SnapDistance"))
 numpy.savez(sys.argv[1], **arrays)
 
 domain.Segments = [9]
