@@ -8,6 +8,7 @@
 #include "FilterRun.h"
 #include "FittedPart.h"
 #include "GivenDomains.h"
+#include "LabelledImage.h"
 #include "ListProperty.h"
 #include "SMPExecution.h"
 #include "SegmentFits.h"
@@ -25,6 +26,7 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSetCollection.h"
@@ -62,7 +64,7 @@ constexpr double Segmented = 0.2, Whole = 0.23, Bounded = 0.27, LaidOut = 0.35, 
                  FilledAgain = 0.6, AllFitted = 0.9;
 
 //------------------------------------------------------------------------------
-// The image with these arrays only, and labels (or null: none) under the name Segment.
+// The image with these arrays only, and labels (or null: none).
 vtkSmartPointer<vtkImageData> MakeImage(
   vtkImageData* like, const std::vector<vtkDataArray*>& arrays, vtkDataArray* labels)
 {
@@ -73,13 +75,7 @@ vtkSmartPointer<vtkImageData> MakeImage(
     image->GetPointData()->AddArray(array);
   }
   image->GetPointData()->SetActiveScalars(arrays.front()->GetName());
-  if (labels)
-  {
-    const auto segments = vtk::TakeSmartPointer(labels->NewInstance());
-    segments->ShallowCopy(labels);
-    segments->SetName("Segment");
-    image->GetPointData()->AddArray(segments);
-  }
+  image->GetPointData()->AddArray(labels);
   return image;
 }
 }
@@ -189,17 +185,26 @@ std::vector<vtkDataArray*> vtkTSplineReconstruction::ChosenArrays(vtkImageData* 
 }
 
 //------------------------------------------------------------------------------
-// The array of labels; null: none is chosen.
-vtkDataArray* vtkTSplineReconstruction::ChosenLabels(vtkImageData* image)
+// The labels as the steps of the chain want them; null: none are chosen.
+vtkSmartPointer<vtkDataArray> vtkTSplineReconstruction::ChosenLabels(vtkImageData* image)
 {
   const char* chosen = this->GetInputArrayInformation(1)->Get(vtkDataObject::FIELD_NAME());
   const std::string name = chosen && *chosen ? chosen : "None";
-  vtkDataArray* labels = name == "None" ? nullptr : this->GetInputArrayToProcess(1, image);
-  if (name != "None" && !labels)
+  if (name == "None")
+  {
+    return nullptr;
+  }
+  vtkDataArray* labels = this->GetInputArrayToProcess(1, image);
+  if (!labels)
   {
     throw std::invalid_argument("The image has no point array \"" + name + "\" of labels.");
   }
-  return labels;
+  const std::vector<std::int32_t> read = ReadLabels(image, labels, nullptr).Labels;
+  auto segments = vtkSmartPointer<vtkIntArray>::New();
+  segments->SetName("Segment");
+  segments->SetNumberOfValues(static_cast<vtkIdType>(read.size()));
+  std::copy(read.begin(), read.end(), segments->GetPointer(0));
+  return segments;
 }
 
 //------------------------------------------------------------------------------
@@ -415,7 +420,7 @@ int vtkTSplineReconstruction::RequestData(
       }
       else
       {
-        vtkDataArray* labels = this->ChosenLabels(input);
+        const auto labels = this->ChosenLabels(input);
         const auto given = this->Domain == GIVEN
                              ? ReadGivenDomains(vtkUnstructuredGrid::GetData(inputVector[1]))
                              : std::vector<GivenDomain>();

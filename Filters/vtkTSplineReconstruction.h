@@ -199,7 +199,7 @@ private:
   void operator=(const vtkTSplineReconstruction&) = delete;
 
   std::vector<vtkDataArray*> ChosenArrays(vtkImageData* image);
-  vtkDataArray* ChosenLabels(vtkImageData* image);
+  vtkSmartPointer<vtkDataArray> ChosenLabels(vtkImageData* image);
   trivariate::SegmentFitOptions FitOptions(vtkImageData* image);
   vtkSmartPointer<vtkTSplineFit> FitBox(
     vtkImageData* image, trivariate::Chain& chain, double from, double to);

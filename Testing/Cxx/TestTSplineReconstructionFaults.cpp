@@ -173,7 +173,7 @@ TEST(TSplineReconstruction, SaysWhatIsWrong)
   vtkDataArray* labels = image->GetPointData()->GetArray("Material");
   labels->SetTuple1(3, -4.0);
   image->Modified();
-  expect("labels are whole numbers");
+  expect("The array \"Material\" is -4 at voxel (5, -1, 0); labels are whole numbers");
   labels->SetTuple1(3, 0.0);
   for (const double label : { 0.5, std::numeric_limits<double>::quiet_NaN(), 1e10 })
   {
@@ -184,7 +184,7 @@ TEST(TSplineReconstruction, SaysWhatIsWrong)
     image->GetPointData()->AddArray(others);
     reconstruction->SetInputArrayToProcess(
       1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Others");
-    expect("labels are whole numbers");
+    expect("The array \"Others\" is ");
   }
   reconstruction->SetInputArrayToProcess(
     1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Material");
