@@ -226,9 +226,10 @@ void Sweeper::Move(Index node, NodeTerms& terms)
   const Matrix3d basis = this->Sliding.BasisAt(node, place);
   if (kind == SlidingNodes::OnSurface)
   {
-    // Off the surface as far as that goes the step is along it.
-    const double off = (place - this->Sliding.FootOf(node).Place).norm();
-    const int first = off < AtEnd * this->Sliding.Freedom() ? 3 : 2;
+    // Off the surface as far as that goes the step is along it, but where it wants to come back.
+    const Vector3d off = place - this->Sliding.FootOf(node).Place;
+    const bool isHeld = off.norm() >= AtEnd * this->Sliding.Freedom() && gradient.dot(off) < 0.0;
+    const int first = isHeld ? 2 : 3;
     if (!tryStep(first, basis))
     {
       tryStep(5 - first, basis);

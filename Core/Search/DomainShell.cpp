@@ -92,7 +92,7 @@ DomainOptions WithOneCube(DomainOptions options)
   return options;
 }
 
-// Pairs of domains, judged on surfaces of few triangles.
+// Pairs of domains, judged on surfaces of few triangles as PosedSurface has them.
 class ShellSearch
 {
 public:
@@ -100,9 +100,11 @@ public:
     : Outer(outer)
     , Core(core)
     , Run(execution)
-    , FewOutside(ReducedAsPosed(outer, FewTriangles, execution.Part(0.0, 0.1)))
-    , FewInside(ReducedAsPosed(SurfaceMesh(core.Layout.Points, core.Layout.Triangles), FewTriangles,
-        execution.Part(0.1, 0.2)))
+    , Posed(outer)
+    , FewOutside(Reduced(this->Posed.Mesh, FewTriangles, execution.Part(0.0, 0.1)))
+    , FewInside(Reduced(
+        PosedSurface(SurfaceMesh(core.Layout.Points, core.Layout.Triangles), this->Posed).Mesh,
+        FewTriangles, execution.Part(0.1, 0.2)))
     , FewCore(this->OnFew(FewInside, core))
   {
   }
@@ -129,7 +131,8 @@ public:
         this->Offer(*few, this->FewCore,
           [this, corners](const Execution& run)
           {
-            return ShellDomains{ DomainFromCorners(this->Outer, this->Core.Cubes, corners, run),
+            return ShellDomains{ DomainFromCorners(
+                                   this->Outer, this->Core.Cubes, this->ToGiven(corners), run),
               this->Core };
           });
       }
@@ -139,12 +142,13 @@ public:
   // The outer surface's own, and the inner surface with its corners near to those.
   void OfferInside(const SegmentDomain& own, const SurfaceMesh& inner)
   {
-    const std::vector<Vector3d> corners = CornersNear(this->FewInside, own);
+    const std::vector<Vector3d> corners = CornersNear(this->FewInside, this->Posed.ToPosed(own));
     if (const auto few = WithCorners(this->FewInside, own, corners, this->Run))
     {
       this->Offer(this->OnFew(this->FewOutside, own), *few,
-        [own, corners, &inner](const Execution& run) {
-          return ShellDomains{ own, DomainFromCorners(inner, own.Cubes, corners, run) };
+        [this, own, corners, &inner](const Execution& run) {
+          return ShellDomains{ own,
+            DomainFromCorners(inner, own.Cubes, this->ToGiven(corners), run) };
         });
     }
   }
@@ -196,12 +200,23 @@ private:
   // As it is where it cannot be laid out there.
   SegmentDomain OnFew(const SurfaceMesh& few, const SegmentDomain& domain) const
   {
-    return WithCorners(few, domain, CornersOf(domain), this->Run).value_or(domain);
+    const SegmentDomain posed = this->Posed.ToPosed(domain);
+    return WithCorners(few, posed, CornersOf(posed), this->Run).value_or(posed);
+  }
+
+  std::vector<Vector3d> ToGiven(std::vector<Vector3d> places) const
+  {
+    for (Vector3d& place : places)
+    {
+      place = this->Posed.ToGiven(place);
+    }
+    return places;
   }
 
   const SurfaceMesh& Outer;
   const SegmentDomain& Core;
   const Execution Run;
+  const PosedSurface Posed; // the outer one
   const SurfaceMesh FewOutside, FewInside;
   const SegmentDomain FewCore;
   std::vector<Candidate> Found;
@@ -311,7 +326,8 @@ ShellDomains FindShell(const SurfaceMesh& outer, const SurfaceMesh& inner,
   const DomainOptions& options, const Execution& execution)
 {
   const DomainOptions oneCube = WithOneCube(options);
-  const SegmentDomain core = FindDomain(inner, oneCube, execution.Part(0.0, 0.3));
+  const SegmentDomain core =
+    FindDomain(inner, SurfacePose(outer), oneCube, execution.Part(0.0, 0.3));
   const SegmentDomain own = FindDomain(outer, oneCube, execution.Part(0.3, 0.6));
   ShellSearch search(outer, core, execution.Part(0.6, 0.9));
   search.OfferOwn(own);

@@ -83,6 +83,13 @@ SegmentDomain FindPosed(
 SegmentDomain FindDomain(
   const SurfaceMesh& mesh, const DomainOptions& options, const Execution& execution)
 {
+  return FindDomain(mesh, SurfacePose(mesh), options, execution);
+}
+
+//------------------------------------------------------------------------------
+SegmentDomain FindDomain(const SurfaceMesh& mesh, const SurfacePose& pose,
+  const DomainOptions& options, const Execution& execution)
+{
   Index pieces = 0;
   mesh.Components(pieces);
   if (pieces != 1)
@@ -90,7 +97,7 @@ SegmentDomain FindDomain(
     throw std::invalid_argument(
       "The surface has " + std::to_string(pieces) + " pieces; a domain is for one.");
   }
-  const PosedSurface posed(mesh);
+  const PosedSurface posed(mesh, pose);
   return posed.ToGiven(mesh, FindPosed(posed, options, execution));
 }
 }

@@ -5,7 +5,7 @@
 #define trivariate_FindDomain_h
 
 #include "CubeCharts.h"
-#include "Domain/SegmentDomain.h"
+#include "PosedSurface.h"
 
 namespace trivariate
 {
@@ -44,9 +44,9 @@ struct DomainOptions
  * relaxed if wanted (RelaxedLayout.h).
  *
  * All this is done on the surface as PosedSurface.h turns and sorts it: neither the order of its
- * points and triangles nor a translation changes the result, nor a rotation where its principal axes
- * are unique. Where they are not, as of a surface with fourfold symmetry, a rotation may lead to
- * another domain that is about as good.
+ * points and triangles nor a translation changes the result, nor a rotation where its principal
+ * axes are unique. Where they are not, as of a surface with fourfold symmetry, a rotation may lead
+ * to another domain that is about as good.
  *
  * Throws std::invalid_argument for a surface of several pieces, std::runtime_error with the reasons
  * (and the place of a handle) where no domain can be laid out. O(n log n): 5 to 25 s
@@ -54,6 +54,10 @@ struct DomainOptions
  */
 SegmentDomain FindDomain(
   const SurfaceMesh& mesh, const DomainOptions& options, const Execution& execution);
+
+/// The same, searched in the pose of a surface around it, where its own may not be unique.
+SegmentDomain FindDomain(const SurfaceMesh& mesh, const SurfacePose& pose,
+  const DomainOptions& options, const Execution& execution);
 }
 
 #endif

@@ -104,28 +104,39 @@ std::array<Vector3d, 3> PlacesOf(const std::vector<Vector3d>& points, const Tria
 }
 
 //------------------------------------------------------------------------------
+SurfacePose::SurfacePose(const SurfaceMesh& surface)
+{
+  const Areas areas(surface);
+  this->Middle = areas.Middle();
+  this->Frame = FrameOf(areas, this->Middle);
+  double size = 0.0;
+  for (const Vector3d& point : surface.Points)
+  {
+    size = std::max(size, (this->Frame * (point - this->Middle)).lpNorm<Eigen::Infinity>());
+  }
+  this->Unit = std::ldexp(1.0, std::ilogb(size) - Bits);
+}
+
+//------------------------------------------------------------------------------
 PosedSurface::PosedSurface(const SurfaceMesh& given)
-  : Mesh(this->Sorted(given))
+  : PosedSurface(given, SurfacePose(given))
+{
+}
+
+//------------------------------------------------------------------------------
+PosedSurface::PosedSurface(const SurfaceMesh& given, const SurfacePose& pose)
+  : SurfacePose(pose)
+  , Mesh(this->Sorted(given))
 {
 }
 
 //------------------------------------------------------------------------------
 SurfaceMesh PosedSurface::Sorted(const SurfaceMesh& given)
 {
-  const Areas areas(given);
-  this->Middle = areas.Middle();
-  this->Frame = FrameOf(areas, this->Middle);
   std::vector<Vector3d> places;
-  double size = 0.0;
   for (const Vector3d& point : given.Points)
   {
-    places.push_back(this->Frame * (point - this->Middle));
-    size = std::max(size, places.back().lpNorm<Eigen::Infinity>());
-  }
-  const double unit = std::ldexp(1.0, std::ilogb(size) - Bits);
-  for (Vector3d& place : places)
-  {
-    place = unit * (place / unit).array().round().matrix();
+    places.push_back(this->ToPosed(point));
   }
   this->Points = Ordered(places.size(),
     [&places](Index a, Index b)
@@ -154,9 +165,28 @@ SurfaceMesh PosedSurface::Sorted(const SurfaceMesh& given)
 }
 
 //------------------------------------------------------------------------------
-Vector3d PosedSurface::ToGiven(const Vector3d& place) const
+Vector3d SurfacePose::ToGiven(const Vector3d& place) const
 {
   return this->Middle + this->Frame.transpose() * place;
+}
+
+//------------------------------------------------------------------------------
+Vector3d SurfacePose::ToPosed(const Vector3d& place) const
+{
+  return this->Unit * (this->Frame * (place - this->Middle) / this->Unit).array().round().matrix();
+}
+
+//------------------------------------------------------------------------------
+SegmentDomain SurfacePose::ToPosed(SegmentDomain domain) const
+{
+  for (std::vector<Vector3d>* places : { &domain.Layout.Points, &domain.Places })
+  {
+    for (Vector3d& place : *places)
+    {
+      place = this->ToPosed(place);
+    }
+  }
+  return domain;
 }
 
 //------------------------------------------------------------------------------
@@ -205,17 +235,5 @@ SegmentDomain PosedSurface::ToGiven(const SurfaceMesh& given, SegmentDomain doma
                                                  : this->ToGiven(domain.Places[p]);
   }
   return domain;
-}
-
-//------------------------------------------------------------------------------
-SurfaceMesh ReducedAsPosed(const SurfaceMesh& given, Index triangles, const Execution& execution)
-{
-  const PosedSurface posed(given);
-  ReducedSurface reduced = Reduce(posed.Mesh, triangles, execution);
-  for (std::size_t p = 0; p < reduced.Points.size(); ++p)
-  {
-    reduced.Mesh.Points[p] = given.Points[posed.Points[reduced.Points[p]]];
-  }
-  return std::move(reduced.Mesh);
 }
 }

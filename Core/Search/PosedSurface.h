@@ -17,27 +17,42 @@
 
 namespace trivariate
 {
-struct PosedSurface
+/// A frame, and a unit of coordinates in it.
+struct SurfacePose
 {
-  /// O(n log n).
-  explicit PosedSurface(const SurfaceMesh& given);
+  /// O(n).
+  explicit SurfacePose(const SurfaceMesh& surface);
 
   Eigen::Vector3d ToGiven(const Eigen::Vector3d& place) const;
+
+  /// In whole units.
+  Eigen::Vector3d ToPosed(const Eigen::Vector3d& place) const;
+
+  /// A domain with all of its places moved.
+  SegmentDomain ToPosed(SegmentDomain domain) const;
+
+  Eigen::Vector3d Middle; ///< of the surface's area
+  Eigen::Matrix3d Frame;  ///< rows: its axes in the space of the surface
+  double Unit;
+};
+
+struct PosedSurface : SurfacePose
+{
+  /// In its own pose, or that of one around it. O(n log n).
+  explicit PosedSurface(const SurfaceMesh& given);
+  PosedSurface(const SurfaceMesh& given, const SurfacePose& pose);
+
+  using SurfacePose::ToGiven;
 
   /// A domain of Mesh as one of `given`, with the points of that one.
   SegmentDomain ToGiven(const SurfaceMesh& given, SegmentDomain domain) const;
 
-  Eigen::Matrix3d Frame;                ///< rows: its axes in the space of the given one
-  Eigen::Vector3d Middle;               ///< of its area
   std::vector<Index> Points, Triangles; ///< of each of Mesh: which of the given ones it is
   SurfaceMesh Mesh;
 
 private:
   SurfaceMesh Sorted(const SurfaceMesh& given);
 };
-
-/// A surface of fewer triangles (SurfaceReduction.h) that does not depend on pose and order either.
-SurfaceMesh ReducedAsPosed(const SurfaceMesh& given, Index triangles, const Execution& execution);
 }
 
 #endif

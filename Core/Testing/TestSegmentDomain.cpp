@@ -275,8 +275,8 @@ TEST(SegmentDomain, IsTheSameInAnyPoseAndOrder)
       }
     }
     const ShellDomains movedShell = FindShell(turned, turnedCore, DomainOptions(), Execution());
-    EXPECT_NEAR(movedShell.Outer.Alignment, shell.Outer.Alignment, 0.005);
-    EXPECT_NEAR(movedShell.Inner.Alignment, shell.Inner.Alignment, 0.005);
+    EXPECT_NEAR(movedShell.Outer.Alignment, shell.Outer.Alignment, 1e-9);
+    EXPECT_NEAR(movedShell.Inner.Alignment, shell.Inner.Alignment, 1e-9);
   }
 }
 

@@ -129,7 +129,7 @@ TEST(HexRemesh, HoldsTheVolume)
   const vtkNew<vtkPolyData> surface = Ball();
   const double volume = VolumeOf(surface, 1);
   Remeshed mesh(surface);
-  for (const auto& [edge, share] : { std::pair(2.0, 0.012), { 1.0, 0.005 }, { 0.5, 0.005 } })
+  for (const auto& [edge, share] : { std::pair(2.0, 0.002), { 1.0, 0.002 }, { 0.5, 0.002 } })
   {
     mesh.Filter->SetEdgeLength(edge);
     mesh.Filter->Update();
