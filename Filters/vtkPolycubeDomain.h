@@ -202,7 +202,9 @@ public:
    * Cubes that fill a solid only roughly must be better by 0.035. Chains of cubes have the
    * hexahedra of one cube: for them it is a third of the alignment, the area-weighted mean of the
    * cosine between normals and the directions of the patches, which also decides between cubes
-   * whose values differ by less than 0.035. 0: as many cubes as are best; 1: one cube wherever one
+   * whose values differ by less than 0.035. Where one cube is found whose alignment is above 0.9,
+   * the surface has the edges of a cube, bent perhaps, and others must also be better by all the
+   * alignment that they lose. 0: as many cubes as are best; 1: one cube wherever one
    * will do. Valid range [0, 1]. Default is 0.0005.
    */
   vtkSetClampMacro(CornerCost, double, 0.0, 1.0);

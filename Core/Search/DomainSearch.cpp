@@ -30,6 +30,7 @@ constexpr Index FewTriangles = 2000;     // enough to tell how good hexahedra be
 constexpr double GoodHexahedra = 0.83;   // of one cube: more are not looked for
 constexpr double WantingShare = 0.25;    // of what one cube's want to 1: more cubes' want as much
 constexpr double Margin = 0.035;         // in hexahedra, see MarginOf
+constexpr double EdgedCube = 0.9;        // aligned so well, the surface has the edges of a cube
 constexpr double AlignmentRate = 3.0;    // what a mean scaled Jacobian is worth in alignment
 constexpr double UnsoundCost = 0.05;     // in alignment, of cubes inverted between their corners
 constexpr Index MostForBends = 8;        // cubes
@@ -191,14 +192,18 @@ bool DomainSearch::IsWorthwhile(Index corners)
 
 //------------------------------------------------------------------------------
 // By which hexahedra must be better than those of the others. Between cubes whose hexahedra are as
-// good but for that, alignment decides.
+// good but for that, alignment decides. Hexahedra under a border along an edge of the surface are
+// sheared, so they are better where borders stay away from edges; where charts have found those of
+// a cube, what is lost in alignment has to be made good in full.
 double DomainSearch::MarginOf(const SegmentDomain& domain, bool isCoarse) const
 {
+  const double lost = this->ChartAlignment - domain.Alignment;
+  const double edges = this->ChartAlignment > EdgedCube ? std::max(0.0, lost) : 0.0;
   if (domain.Cubes.Cubes.size() == 1 && this->Charts)
   {
-    return domain.Alignment > this->ChartAlignment ? -Margin : Margin;
+    return edges + (lost < 0.0 ? -Margin : Margin);
   }
-  return isCoarse ? Margin : 0.0;
+  return edges + (isCoarse ? Margin : 0.0);
 }
 
 //------------------------------------------------------------------------------

@@ -63,6 +63,32 @@ TEST(PolycubeDomain, GivesAnLForAnyNumberOfThreads)
 }
 
 //------------------------------------------------------------------------------
+// Square bars bent through a quarter and half a turn, as voxels turned against them see them.
+TEST(PolycubeDomain, FindsOneCubeInABentBar)
+{
+  for (const double angle : { 0.5 * vtkMath::Pi(), vtkMath::Pi() })
+  {
+    for (const double turn : { 0.0, 0.35 })
+    {
+      const vtkNew<vtkPolyData> surface = SurfaceOf(28,
+        [&](const double* p)
+        {
+          const double y = p[1] * std::cos(turn) - p[2] * std::sin(turn);
+          const double z = p[1] * std::sin(turn) + p[2] * std::cos(turn);
+          const double r = std::hypot(p[0], y), a = std::atan2(y, p[0]);
+          return int(r > 12.2 && r < 24.7 && a > 0.02 && a < angle - 0.02 && std::abs(z) < 6.4);
+        });
+      vtkNew<vtkPolycubeDomain> domain;
+      domain->SetInputData(surface);
+      domain->Update();
+      ExpectSound(domain, surface, { 1 });
+      EXPECT_EQ(domain->GetPolycube()->GetNumberOfCells(), 7) << angle << ", " << turn;
+      EXPECT_GT(CellArray(domain->GetPolycube(), "Alignment")->GetComponent(0, 0), 0.94);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST(PolycubeDomain, SaysWhyCavitiesAreNotShared)
 {
   const auto isIn = [](const double* p, double x, double radius)
