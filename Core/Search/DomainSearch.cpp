@@ -157,10 +157,8 @@ std::string DomainSearch::Handles() const
   const HandleLoop handle = FindHandle(this->Mesh);
   const Vector3d place = this->Posed.ToGiven(handle.Place);
   const auto text = [](double x) { return std::to_string(x); };
-  return " It has " + std::to_string(1 - this->Mesh.EulerCharacteristic() / 2) +
-         " handle(s); a loop around one, " + text(handle.Length) + " long, passes (" +
-         text(place.x()) + ", " + text(place.y()) + ", " + text(place.z()) +
-         "). Cut or close handles first.";
+  return " A loop around a handle, " + text(handle.Length) + " long, passes (" + text(place.x()) +
+         ", " + text(place.y()) + ", " + text(place.z()) + ").";
 }
 
 //------------------------------------------------------------------------------

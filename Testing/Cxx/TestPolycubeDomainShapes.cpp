@@ -12,6 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <string>
 #include <vector>
 
 using namespace trivariate_testing;
@@ -86,6 +88,71 @@ TEST(PolycubeDomain, FindsOneCubeInABentBar)
       EXPECT_GT(CellArray(domain->GetPolycube(), "Alignment")->GetComponent(0, 0), 0.94);
     }
   }
+}
+
+//------------------------------------------------------------------------------
+// A torus away from the origin: the shortest loop goes around its tube.
+TEST(PolycubeDomain, SaysWhereAHandleIs)
+{
+  const double middle[] = { 3.0, -2.0, 1.0 };
+  const vtkNew<vtkPolyData> surface = SurfaceOf(23,
+    [&middle](const double* p)
+    {
+      const double ring = std::hypot(p[0] - middle[0], p[1] - middle[1]) - 13.0;
+      return int(std::hypot(ring, p[2] - middle[2]) < 5.0);
+    });
+  vtkNew<vtkPolycubeDomain> domain;
+  domain->SetInputData(surface);
+  domain->SetMostCubes(7); // around a hole there are eight
+  ErrorLog log(domain);
+  domain->Update();
+  const std::string error = log.TakeOnly();
+  EXPECT_NE(error.find("Segment 1: Its surface has 1 handle "), std::string::npos) << error;
+  EXPECT_EQ(error.find("ut or close"), error.rfind("ut or close")) << "twice: " << error;
+  const auto at = error.find("A loop around a handle, ");
+  ASSERT_NE(at, std::string::npos) << error;
+  double length = 0.0, x = 0.0, y = 0.0, z = 0.0;
+  ASSERT_EQ(std::sscanf(error.c_str() + at,
+              "A loop around a handle, %lf long, passes (%lf, %lf, %lf)", &length, &x, &y, &z),
+    4)
+    << error;
+  EXPECT_NEAR(length, 2.0 * vtkMath::Pi() * 5.0, 0.15 * 2.0 * vtkMath::Pi() * 5.0);
+  const double ring = std::hypot(x - middle[0], y - middle[1]) - 13.0;
+  EXPECT_NEAR(std::hypot(ring, z - middle[2]), 5.0, 0.8) << error;
+}
+
+//------------------------------------------------------------------------------
+// A corner on the other side of the hole leaves the borders of others in the way.
+TEST(PolycubeDomain, NamesCornersWithoutAPath)
+{
+  const vtkNew<vtkPolyData> torus = SurfaceOf(
+    22, [](const double* p) { return int(std::hypot(std::hypot(p[0], p[1]) - 14.0, p[2]) < 6.0); });
+  vtkNew<vtkPolycubeDomain> domain;
+  domain->SetInputData(torus);
+  domain->SetModeToManual();
+  domain->SetNumberOfCubes(3, 3, 1);
+  domain->AddSwitchedOffCube(4);
+  domain->SetSnapLimit(1.0);
+  const auto pick = [&domain](double turned)
+  {
+    domain->ClearCornerPositions();
+    for (int i = 0; i < 32; ++i)
+    {
+      const double x = i % 4 - 1.5, y = i / 4 % 4 - 1.5;
+      const bool inner = std::abs(x) < 1.0 && std::abs(y) < 1.0;
+      const double angle = std::atan2(y, x) + (i == 0 ? turned : 0.0);
+      const double radius = inner ? 9.8 : 18.2;
+      domain->AddCornerPosition(
+        radius * std::cos(angle), radius * std::sin(angle), i < 16 ? -4.2 : 4.2);
+    }
+  };
+  pick(0.0);
+  domain->Update();
+  EXPECT_EQ(domain->GetPolycube()->GetNumberOfCells(), 8 + 32);
+  ErrorLog log(domain);
+  pick(0.9 * vtkMath::Pi());
+  ExpectFault(domain, log, "Segment 1: From corner ");
+  ExpectFault(domain, log, "There is no path: other borders lie between its ends.");
 }
 
 //------------------------------------------------------------------------------
