@@ -133,7 +133,8 @@ void vtkHexRemesh::Remesh(vtkInformationVector** inputVector, vtkInformationVect
   if (cells > static_cast<double>(this->MostCells))
   {
     throw std::invalid_argument(
-      "The mesh would have " + std::to_string(cells) + " cells, more than MostCells; choose " +
+      "The mesh would have " + std::to_string(static_cast<vtkIdType>(cells)) +
+      " cells, more than MostCells; choose " +
       (this->CellsPerBlock > 0 ? "fewer CellsPerBlock." : "a larger EdgeLength."));
   }
   const Execution execution = SMPExecution(this, 0.0, 0.95);

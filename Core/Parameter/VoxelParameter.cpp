@@ -170,7 +170,7 @@ public:
           message << "The cubes between "
                   << "uvw"[axis] << " = " << planes[p - 1] << " and " << planes[p] << " come out "
                   << lengths[p] - lengths[p - 1]
-                  << " long: frames and patches do not belong together, or are left-handed.";
+                  << " long: the frames were not made with these patches, or are left-handed.";
           throw std::runtime_error(message.str());
         }
       }

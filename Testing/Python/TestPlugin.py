@@ -37,6 +37,12 @@ for file in sorted((source / "Plugin").glob("*.xml")):
                 if not prop.tag.endswith("Property") or prop.get("panel_visibility") == "never":
                     continue
                 assert prop.find("Documentation") is not None, where + name + " is not documented"
+                # ParaView's widget for strings of a list holds one, and takes the others away.
+                has_list = prop.find("StringListDomain") is not None
+                assert not (prop.get("repeat_command") and has_list), \
+                    where + name + " has no widget"
+                assert prop.tag != "IdTypeVectorProperty" or prop.get("information_only"), \
+                    where + name + " has no widget"
                 if prop.tag == "InputProperty" or not prop.get("command").startswith("Set"):
                     continue
                 expected = cxx_defaults(cls_object, prop.get("command"))
