@@ -194,6 +194,9 @@ private:
     catch (const std::invalid_argument&)
     {
     }
+    catch (const std::runtime_error&) // a patch that cannot be made flat
+    {
+    }
     this->Found.push_back({ quality, std::move(layOut) });
   }
 
