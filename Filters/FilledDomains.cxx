@@ -28,7 +28,7 @@ namespace trivariate
 namespace
 {
 // Where the steps end, as shares of their progress.
-constexpr double Framed = 0.25, Parameterized = 0.85;
+constexpr double Framed = 0.25, Parameterized = 0.7;
 
 // Of cells, in voxels: two, or longer where more cells would fill the image than are untangled
 // within half a minute.
@@ -106,20 +106,15 @@ FilledDomains FillAll(vtkImageData* image, vtkPolyData* patches, vtkUnstructured
   FilledDomains domains = Parameterize(vtkImageData::SafeDownCast(frames->GetOutputDataObject(0)),
     patches, polycubes, chain, at(Framed), at(Parameterized));
 
+  // Not the blocks of the parameters, whose layers are thin: those for a solver have better angles.
   const double* spacing = image->GetSpacing();
   vtkNew<vtkHexRemesh> hexahedra;
   hexahedra->SetEdgeLength(CellLength(image) * std::cbrt(spacing[0] * spacing[1] * spacing[2]));
   hexahedra->SetInputDataObject(0, image);
   hexahedra->SetInputDataObject(1, patches);
   hexahedra->SetInputDataObject(2, polycubes);
-  hexahedra->SetInputDataObject(3, domains.Blocks);
   ChainStep(hexahedra, chain, at(Parameterized), to).Run();
   domains.Hexahedra = hexahedra->GetHexahedra();
-  // The remesher was given cells that are repaired already.
-  domains.Hexahedra->GetFieldData()
-    ->GetArray("InvertedCells")
-    ->SetComponent(
-      0, 0, domains.Fields->GetFieldData()->GetArray("InvertedCells")->GetComponent(0, 0));
   return domains;
 }
 
