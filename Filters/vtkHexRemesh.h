@@ -38,7 +38,7 @@
  * back, in units of space: root mean square and the most.
  *
  * @par Cost
- * 80 to 400 microseconds of processor time for a cell where the domain fits its segment; up to 3 ms
+ * 80 to 400 microseconds of processor time for a cell where the domain fits its segment; up to 7 ms
  * where it does not (Documentation/Results.md).
  *
  * @par Distributed data

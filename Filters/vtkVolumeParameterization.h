@@ -17,8 +17,9 @@
  * surface, to half a voxel, and which share their nodes where blocks are glued. Cells that are
  * inverted are repaired by a foldover-free energy, nodes on the surface sliding on it, also over
  * the borders of patches but where the surface is sharp. The block mesh is the inverse of a
- * parameterization that is one-to-one, around singular edges too: there the parameter of a voxel is
- * where it lies in the mesh. This one is what vtkTSplineFit takes. It depends on the patches, the
+ * parameterization around singular edges too, one-to-one where cells neither fold nor lie over one
+ * another, as they can where the domain does not fit: there the parameter of a voxel is where it
+ * lies in the mesh. This one is what vtkTSplineFit takes. It depends on the patches, the
  * polycube and CellLength alone: neither the frames nor Epsilon, Gradient, Rounds and Tolerance
  * change it.
  *
@@ -63,7 +64,7 @@
  * bit by bit.
  *
  * @par Cost
- * Solving: 20 to 50 iterations for each parameter whatever the size; a segment that fills 256^3, 23
+ * Solving: 20 to 80 iterations for each parameter whatever the size; a segment that fills 256^3, 23
  * s for each on one core. Memory: 160 bytes a voxel of the box around the segment, and 105 a voxel
  * of the image; with Epsilon below 1 another 220. Repair: see Core/Parameter/BlockRepair.h.
  * Threaded with vtkSMPTools; the result does not depend on the number of threads.

@@ -15,6 +15,8 @@ namespace
 {
 using Counts = std::array<int, 3>;
 
+constexpr double MostAlong = 1e5; // cells along an edge, however short they are wanted
+
 // The grid of nodes of a face that blocks see from different sides. Its rows begin at the point of
 // least number and lead to the lesser of that one's two neighbours.
 struct StoredFace
@@ -301,7 +303,8 @@ std::vector<Counts> BlockSizes(const std::vector<BlockPoints>& blocks,
     for (int axis = 0; axis < 3; ++axis)
     {
       const Index r = root(3 * b + axis);
-      sizes[b][axis] = std::max(fewest, static_cast<int>(std::lround(sum[r] / edges[r] / cell)));
+      const double cells = std::min(sum[r] / edges[r] / cell, MostAlong);
+      sizes[b][axis] = std::max(fewest, static_cast<int>(std::lround(cells)));
     }
   }
   return sizes;

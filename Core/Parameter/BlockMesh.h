@@ -77,8 +77,8 @@ struct BlockMesh
 
 /**
  * Cells of each block along its axes: as many for all edges that are parallel through glued blocks,
- * their mean length over `cell`, rounded, but `fewest` at least. `length`: of an edge, by its
- * points. O(n log n).
+ * their mean length over `cell`, rounded, but `fewest` at least and 100,000 at most. `length`: of
+ * an edge, by its points. O(n log n).
  */
 std::vector<std::array<int, 3>> BlockSizes(const std::vector<BlockPoints>& blocks,
   const std::function<double(Index, Index)>& length, double cell, int fewest = 1);

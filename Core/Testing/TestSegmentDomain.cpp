@@ -412,24 +412,6 @@ TEST(SegmentDomain, RefusesWhatHasNoDomain)
   }
 }
 
-// Half a ball in one piece, the other half in crumbs far from any large piece.
-TEST(ChartRelabelling, GivesCrumbsToLargePieces)
-{
-  const SurfaceMesh ball = Icosphere(5);
-  std::mt19937 random(1);
-  std::vector<ChartLabel> labels;
-  for (const Triangle& c : ball.Triangles)
-  {
-    labels.push_back(ball.Points[c[0]].z() > 0.0 ? 0 : static_cast<ChartLabel>(random() % 6));
-  }
-  KeepLargestPieces(ball, labels);
-  std::vector<ChartLabel> again = labels;
-  KeepLargestPieces(ball, again);
-  EXPECT_EQ(labels, again);
-  EXPECT_LE(*std::max_element(labels.begin(), labels.end()), 5);
-  EXPECT_GT(std::count(labels.begin(), labels.end(), 0), ball.NumberOfTriangles() / 2);
-}
-
 // Around a bar of the frame and around its hole: four faces each.
 TEST(HandleLoop, FindsTheShortest)
 {

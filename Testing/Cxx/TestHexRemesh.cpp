@@ -264,6 +264,15 @@ TEST(HexRemesh, SaysWhatIsWrong)
     mesh.Filter->SetCellsPerBlock(6);
     mesh.Filter->Update();
     EXPECT_NE(errors.TakeOnly().find("choose fewer CellsPerBlock"), std::string::npos);
+    mesh.Filter->SetCellsPerBlock(0);
+    for (const double tiny : { 1e-4, 1e-8, 1e-20, 1e-300 })
+    {
+      mesh.Filter->SetEdgeLength(tiny);
+      mesh.Filter->Update();
+      const std::string error = errors.TakeOnly();
+      EXPECT_NE(error.find("choose a larger EdgeLength"), std::string::npos) << tiny;
+      EXPECT_EQ(error.find("have -"), std::string::npos) << error;
+    }
   }
   {
     Remeshed mesh(surface);

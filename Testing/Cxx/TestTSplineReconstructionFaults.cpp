@@ -185,6 +185,7 @@ TEST(TSplineReconstruction, SaysWhatIsWrong)
     reconstruction->SetInputArrayToProcess(
       1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Others");
     expect("The array \"Others\" is ");
+    expect("labels are whole numbers");
   }
   reconstruction->SetInputArrayToProcess(
     1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Material");

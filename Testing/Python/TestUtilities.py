@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The scripts that make the tables and figures of Documentation/Results.md run on tiny volumes, so
-that a column or a field that gets another name is missed here first."""
+"""Some of the scripts that make the tables and figures of Documentation/Results.md run on tiny
+volumes, so that a column or a field that gets another name is missed here first."""
 import os
 import pathlib
 import shutil
