@@ -98,7 +98,7 @@ void ChainStep::Run()
 }
 
 //------------------------------------------------------------------------------
-void WriteSeconds(const Chain& chain, vtkDataObject* data)
+void WriteCourse(const Chain& chain, vtkDataObject* data)
 {
   vtkNew<vtkStringArray> names;
   names->SetName("Step");
@@ -111,5 +111,12 @@ void WriteSeconds(const Chain& chain, vtkDataObject* data)
   }
   data->GetFieldData()->AddArray(names);
   data->GetFieldData()->AddArray(seconds);
+  if (!chain.Remark.empty())
+  {
+    vtkNew<vtkStringArray> remark;
+    remark->SetName("Remark");
+    remark->InsertNextValue(chain.Remark);
+    data->GetFieldData()->AddArray(remark);
+  }
 }
 }

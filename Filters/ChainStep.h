@@ -18,16 +18,18 @@ class vtkDataObject;
 
 namespace trivariate
 {
-/// The outer filter, and where its time goes.
+/// The outer filter, and what there is to tell of its run.
 struct Chain
 {
   vtkAlgorithm* Filter;
   std::map<std::string, double> Seconds; ///< by the name of the step
   std::vector<std::string> Warnings;     ///< of steps whose results count
+  std::string Remark;                    ///< on a choice that is no fault
 };
 
-/// Adds where the time went to the field data: Step (string) and StepSeconds (double).
-void WriteSeconds(const Chain& chain, vtkDataObject* data);
+/// Adds to the field data where the time went, Step (string) and StepSeconds (double), and Remark
+/// (string), if there is one.
+void WriteCourse(const Chain& chain, vtkDataObject* data);
 
 class ChainStep
 {

@@ -99,8 +99,6 @@ FittedPart FitOverBlocks(const FilledDomains& domains, vtkImageData* image,
   fit->SetInputData(1, cubes);
   fit->SetInputData(2, blocks);
   FittedPart part = RunFit(fit, CutMaskName, "FitOverCubes", options, chain, from, to);
-  const bool layered = cubes->GetCellData()->GetArray("Patch")->GetRange()[1] >= 0.0;
-  part.Domain = layered ? "LayeredCubes" : "Cubes";
   const double folds = part.Rounds->GetFieldData()->GetArray("ShapeCells")->GetComponent(0, 1);
   if (folds > 0.0)
   {

@@ -107,6 +107,22 @@ BlockComplex ReadBlocks(vtkUnstructuredGrid* polycube)
 }
 
 //------------------------------------------------------------------------------
+std::set<int> LayeredSegments(vtkUnstructuredGrid* polycube)
+{
+  vtkDataArray* segments = polycube->GetCellData()->GetArray("Segment");
+  vtkDataArray* patches = polycube->GetCellData()->GetArray("Patch");
+  std::set<int> layered;
+  for (vtkIdType cell = 0; patches && cell < polycube->GetNumberOfCells(); ++cell)
+  {
+    if (patches->GetTuple1(cell) >= 0.0)
+    {
+      layered.insert(static_cast<int>(segments->GetTuple1(cell)));
+    }
+  }
+  return layered;
+}
+
+//------------------------------------------------------------------------------
 BlockSamples TakeVoxels(ImageSamples& samples, const BlockComplex& blocks)
 {
   const std::size_t attributes = samples.Attributes.size();

@@ -7,6 +7,8 @@
 #include "Fit/BlockFit.h"
 #include "ImageSamples.h"
 
+#include <set>
+
 class vtkPartitionedDataSetCollection;
 class vtkUnstructuredGrid;
 
@@ -19,6 +21,9 @@ constexpr const char* ParameterMaskName = "ParameterMask";
 /// The blocks of a polycube (output of vtkVolumeParameterization or vtkPolycubeDomain) with their
 /// groups and places. Throws std::invalid_argument with a sentence for the user.
 BlockComplex ReadBlocks(vtkUnstructuredGrid* polycube);
+
+/// The segments of a polycube some of whose blocks lie along the surface: they have a Patch.
+std::set<int> LayeredSegments(vtkUnstructuredGrid* polycube);
 
 /**
  * The voxels that have a parameter, from samples whose last two attributes are Parameter and

@@ -53,7 +53,6 @@ FittedPart FitOverBox(const Cut& cut, const Part& part, const SegmentFitOptions&
   fitted.Range = part.High - part.Low;
   // Its geometry is affine: the error of the round trip is that of the fit.
   fitted.Squares = SquaresOf(fitted, static_cast<double>(cut.Voxels.size()));
-  fitted.Domain = "SegmentBox";
   return fitted;
 }
 
@@ -66,19 +65,27 @@ vtkVariant LastOf(vtkTable* rounds, const char* column)
 }
 
 //------------------------------------------------------------------------------
-// The error of a segment's own voxels, where the fit tells it, or else that of all.
-double OwnRms(vtkTable* rounds, int segment)
+// The error of a segment's own voxels, and over what it was fitted.
+struct OwnFit
 {
-  vtkDataArray* segments = rounds->GetFieldData()->GetArray("FittedSegment");
-  vtkDataArray* errors = rounds->GetFieldData()->GetArray("FittedSegmentRMS");
-  for (vtkIdType i = 0; segments && errors && i < segments->GetNumberOfTuples(); ++i)
+  double Rms;
+  std::string Domain; ///< SegmentBox, Cubes or LayeredCubes
+};
+
+// What a fit over cubes tells of the segment; that over its box is of all voxels.
+OwnFit OwnFitOf(vtkTable* rounds, int segment)
+{
+  vtkFieldData* told = rounds->GetFieldData();
+  vtkDataArray* segments = told->GetArray("FittedSegment");
+  for (vtkIdType i = 0; segments && i < segments->GetNumberOfTuples(); ++i)
   {
     if (static_cast<int>(segments->GetTuple1(i)) == segment)
     {
-      return errors->GetTuple1(i);
+      return { told->GetArray("FittedSegmentRMS")->GetTuple1(i),
+        told->GetAbstractArray("FittedDomain")->GetVariantValue(i).ToString() };
     }
   }
-  return LastRms(rounds);
+  return { LastRms(rounds), "SegmentBox" };
 }
 
 // Appends to a column; a new one goes into the table with its rows, of which all have as many.
@@ -148,7 +155,8 @@ void AddRounds(const FittedPart& fitted, int segment, bool isSingle, vtkTable* a
 {
   vtkTable* own = fitted.Rounds;
   const vtkIdType rows = own->GetNumberOfRows();
-  const double rms = isSingle ? OwnRms(own, segment) : std::nan("");
+  const OwnFit fit = OwnFitOf(own, segment);
+  const double rms = isSingle ? fit.Rms : std::nan("");
   vtkDataArray* jumps = own->GetFieldData()->GetArray("GradientJump");
   const double jump = jumps ? jumps->GetComponent(0, 0) : 0.0; // a box has no faces inside
   AddColumn<vtkIntArray>(all, "Segment", rows, [=](vtkIdType) { return segment; });
@@ -163,6 +171,6 @@ void AddRounds(const FittedPart& fitted, int segment, bool isSingle, vtkTable* a
   AddColumn<vtkDoubleArray>(all, "Range", rows, [&](vtkIdType) { return fitted.Range; });
   AddColumn<vtkDoubleArray>(all, "SegmentRMS", rows, [=](vtkIdType) { return rms; });
   AddColumn<vtkDoubleArray>(all, "GradientJump", rows, [=](vtkIdType) { return jump; });
-  AddColumn<vtkStringArray>(all, "Domain", rows, [&](vtkIdType) { return fitted.Domain; });
+  AddColumn<vtkStringArray>(all, "Domain", rows, [&](vtkIdType) { return fit.Domain; });
 }
 }

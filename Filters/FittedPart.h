@@ -27,7 +27,6 @@ struct FittedPart
   /// Sum of the squared errors of the round trip; with several arrays those of the fit's worst one,
   /// as SquaresOf has them.
   double Squares = 0.0;
-  std::string Domain; ///< SegmentBox, Cubes or LayeredCubes
 };
 
 /**

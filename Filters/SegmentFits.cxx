@@ -240,7 +240,7 @@ std::string SegmentFitter::ImproveOverCubes(
   double least = isCompared ? this->BoxError(unit, 1.0) : std::numeric_limits<double>::infinity();
   const double each = (limits.To - limits.From) / static_cast<double>(candidates.size());
   std::vector<vtkIdType> missed;
-  bool isOverCubes = false;
+  const FilledDomains* chosen = nullptr;
   std::string why;
   for (std::size_t i = 0; i < candidates.size(); ++i)
   {
@@ -269,7 +269,7 @@ std::string SegmentFitter::ImproveOverCubes(
       }
       missed = std::move(cubes.Missed);
       least = cubes.Error;
-      isOverCubes = true;
+      chosen = candidates[i];
     }
     why = why.empty() ? cubes.Why : why;
   }
@@ -277,13 +277,13 @@ std::string SegmentFitter::ImproveOverCubes(
   {
     this->Segmented.GiveToFirst(voxel);
   }
-  if (isOverCubes && !why.empty() && this->Fitted[unit.front()].Domain == "Cubes")
+  if (chosen && chosen != candidates.front() && !why.empty())
   {
     this->Warnings.push_back("Segment " +
                              std::to_string(this->Segmented.Parts[unit.front()].Label) +
                              " is fitted over cubes without layers: with layers, " + why);
   }
-  return isOverCubes ? "" : why;
+  return chosen ? "" : why;
 }
 
 //------------------------------------------------------------------------------

@@ -156,6 +156,13 @@ double ReachIn(vtkDataSet* points)
 }
 
 //------------------------------------------------------------------------------
+bool AreOfSegments(const TSplineModel& model)
+{
+  const std::vector<std::int32_t> segments = SegmentsOf(model);
+  return segments.size() > 1 || segments.front() != 0;
+}
+
+//------------------------------------------------------------------------------
 void FillPointsOfSegments(
   const TSplineView& whole, vtkDataArray* labels, vtkDataSet* output, const Execution& execution)
 {

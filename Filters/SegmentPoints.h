@@ -21,6 +21,10 @@ constexpr double LabelReach = 1.5; ///< in voxels, of the longest side
 /// That of an image in space; 0 of other points.
 double ReachIn(vtkDataSet* points);
 
+/// Whether splines stand for the points with their label: several, or one that was fitted over the
+/// domain of a segment. That of a fit without domain has segment 0 and stands for all points.
+bool AreOfSegments(const TSplineModel& model);
+
 /**
  * As FillPoints, but every point by the spline of its own segment, which `labels` tells; without
  * labels (null) by that of the highest segment that holds it. Points of an image that have a label

@@ -100,7 +100,7 @@ RoundTrip EvaluateImage(
   trip.Image->CopyStructure(input.Lattice);
   const BezierMesh mesh(model.Spline, execution.Part(0.0, 0.1));
   const TSplineView view{ model, mesh, false, false };
-  if (SegmentsOf(model).size() > 1)
+  if (input.Labels >= 0 && AreOfSegments(model))
   {
     vtkNew<vtkIntArray> labels;
     labels->SetName("Segment");
@@ -205,10 +205,10 @@ Errors Compare(const ReportInput& input, const RoundTrip& trip, double range, bo
 }
 
 // Over what the spline of a segment was fitted, as the rounds tell, or else the spline.
-std::string DomainOf(const SplineFacts& facts, bool several, const LastRound& last)
+std::string DomainOf(const SplineFacts& facts, bool apart, const LastRound& last)
 {
   return std::isnan(facts.ControlPoints) ? "None"
-         : facts.Affine                  ? several ? "SegmentBox" : "ImageBox"
+         : facts.Affine                  ? apart ? "SegmentBox" : "ImageBox"
          : last.Domain.empty()           ? "Cubes"
                                          : last.Domain;
 }
@@ -281,7 +281,7 @@ std::vector<ReportRow> MakeReport(const ReportInput& input, const Execution& exe
   const double scalarBytes = vtkDataArray::GetDataTypeSize(input.ScalarType);
 
   const std::vector<std::int32_t> segments = SegmentsOf(model);
-  const bool several = segments.size() > 1;
+  const bool apart = input.Labels >= 0 && AreOfSegments(model); // segments have rows apart
   std::vector<ReportRow> rows;
   Errors total;
   SplineFacts totalFacts;
@@ -298,27 +298,27 @@ std::vector<ReportRow> MakeReport(const ReportInput& input, const Execution& exe
     const double raw = scalarBytes * static_cast<double>(own.size());
     const double deflated = DeflatedBytes(values, own, input.ScalarType, part.Part(0.0, 0.2));
     const bool exists =
-      !several || std::find(segments.begin(), segments.end(), segment) != segments.end();
+      !apart || std::find(segments.begin(), segments.end(), segment) != segments.end();
     // One spline for all segments is told of once: with the first, and then not in its row.
     SplineFacts facts;
     Errors errors;
     std::string domain = "None";
     if (exists)
     {
-      const TSplineModel fitted = several ? SegmentPart(model, segment) : model;
+      const TSplineModel fitted = apart ? SegmentPart(model, segment) : model;
       const BezierMesh mesh(fitted.Spline, part.Part(0.2, 0.25));
       const LastRound last = LastRoundOf(input.Rounds, segment, component);
-      if (several || rows.empty())
+      if (apart || rows.empty())
       {
-        const TSplineModel stored = several ? SegmentPart(input.Model, segment) : input.Model;
-        const int whose = several ? segment : segments.front();
+        const TSplineModel stored = apart ? SegmentPart(input.Model, segment) : input.Model;
+        const int whose = apart ? segment : segments.front();
         facts = DescribeSpline(stored, mesh, whose, input, part.Part(0.25, 0.8));
         facts.GradientJump =
           facts.Affine ? 0.0 : LastRoundOf(input.Rounds, whose, component).GradientJump / range;
         totalFacts.Add(facts);
       }
-      const SplineFacts& described = several ? facts : totalFacts;
-      domain = DomainOf(described, several, last);
+      const SplineFacts& described = apart ? facts : totalFacts;
+      domain = DomainOf(described, apart, last);
       // A fit over a domain moves the parameters of voxels: its own word comes before the array's.
       const bool isTold = IsOverCubes(domain) && !std::isnan(last.Rms);
       const std::vector<double> ownValues =
@@ -339,7 +339,7 @@ std::vector<ReportRow> MakeReport(const ReportInput& input, const Execution& exe
     total.Add(errors);
     totalRaw += raw;
     totalDeflated += deflated;
-    const bool isOwn = several || voxels.size() == 1;
+    const bool isOwn = apart || voxels.size() == 1;
     std::set<int> cubed;
     if (IsOverCubes(domain))
     {
@@ -352,7 +352,7 @@ std::vector<ReportRow> MakeReport(const ReportInput& input, const Execution& exe
     rows.back().Domain = domain;
   }
   double labelBytes = 0.0;
-  if (several)
+  if (apart)
   {
     totalFacts.Bytes = StoredBytes(input.Model, execution.Part(1.0, 1.0));
     const double* labels = values + input.Labels * input.Image.Count();

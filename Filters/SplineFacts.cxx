@@ -9,6 +9,7 @@
 #include "TSpline/Evaluator.h"
 #include "TSpline/JacobianRange.h"
 
+#include "vtkAbstractArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
@@ -18,6 +19,7 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkTable.h"
+#include "vtkVariant.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,13 +80,15 @@ LastRound LastRoundOverDomain(vtkFieldData* field, int segment, int component)
   vtkDataArray* errors = field->GetArray("FittedSegmentRMS");
   vtkDataArray* ranges = field->GetArray("FittedRange");
   vtkDataArray* jump = field->GetArray("GradientJump");
+  vtkAbstractArray* domains = field->GetAbstractArray("FittedDomain");
   const bool isTold =
-    segments && errors && ranges && jump && component < ranges->GetNumberOfComponents();
+    segments && errors && ranges && jump && domains && component < ranges->GetNumberOfComponents();
   for (vtkIdType i = 0; isTold && i < segments->GetNumberOfTuples(); ++i)
   {
     if (static_cast<int>(segments->GetTuple1(i)) == segment)
     {
       const double range = ranges->GetComponent(0, component);
+      last.Domain = domains->GetVariantValue(i).ToString();
       last.Rms = errors->GetTuple1(i) / 100.0 * range;
       last.GradientJump = jump->GetComponent(0, 0) * range;
     }

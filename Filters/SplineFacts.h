@@ -55,7 +55,7 @@ double CountCorners(vtkPolyData* surface, const std::set<int>& segments);
 double SecondsOf(vtkTable* rounds, int segment);
 
 /// What the rounds tell of the fit that a segment ended with: those of vtkTSplineReconstruction, or
-/// of vtkTSplineFit over a domain, which do not tell the domain.
+/// of vtkTSplineFit over a domain.
 struct LastRound
 {
   std::string Domain;                     ///< over what it was fitted; empty: not known

@@ -17,13 +17,14 @@
  * the spline has several, whose splines overlap in space. If there is a point array Parameter (3
  * components), it says where in the spline's parameter space a voxel lies, where an array
  * ParameterMask, if there is one, is not zero.
- * Port 1: the T-spline grid. The control points' array Segment tells whose spline is whose; a
- * spline of one segment stands for all voxels.
+ * Port 1: the T-spline grid. The control points' array Segment tells whose spline is whose; one
+ * without a segment (0 alone, as of a fit without domain) stands for all voxels.
  * Port 2 (optional): vtkPolyData, the surfaces of the segments, by vtkSegmentBoundary or (patches)
  * vtkPolycubeDomain.
  * Port 3 (optional): vtkTable, the rounds of the fit; of its columns Seconds, RMS, Range,
  * GradientJump and Domain the last row of each segment (column Segment, if there is one) counts; of
- * vtkTSplineFit over a domain the field data FittedSegmentRMS, FittedRange and GradientJump.
+ * vtkTSplineFit over a domain the field data FittedSegmentRMS, FittedDomain, FittedRange and
+ * GradientJump.
  *
  * @par Output
  * Port 0: vtkTable with one row a segment, ascending, and one with Segment -1 for all. Columns are
@@ -40,9 +41,9 @@
  * - ControlPoints: blending functions, points of the grid; DistinctControlPoints: those that glued
  *   blocks share once, as fits and their limits count them;
  * - RoundTripRMSPercent, MaximumErrorPercent: of the round trip, in percent of the same range;
- *   FoundPercent: share of the voxels found by the inverse map, in a spline of several segments
- *   also those that lie outside of theirs by up to 1.5 times the largest of the voxels' three
- *   spacings, and take the value at its nearest point;
+ *   FoundPercent: share of the voxels found by the inverse map, in splines of segments also those
+ *   that lie outside of theirs by up to 1.5 times the largest of the voxels' three spacings, and
+ *   take the value at its nearest point;
  * - PSNRDecibels: -20 log10 of the round trip's RMS as a share of the range;
  * - HausdorffVoxels: Hausdorff distance of the spline's boundary and the segment's surface (port
  *   2), in units of voxels; the largest one in total. NaN for an affine geometry, whose boundary is
@@ -58,14 +59,13 @@
  *   place of the coordinates where the geometry is affine. A fit over a domain finds those on a
  *   coarser net, which a file does not have; its NumbersFitted are fewer;
  * - SplineBytes: of the .tspline file that vtkTSplineWriter writes, with all attributes; LabelBytes
- *   (total only): of the labels deflated, which the image is written back with where a spline has
- *   several segments; RawBytes, ZLibBytes: of the voxels, as they are and deflated by
+ *   (total only): of the labels deflated, which the image is written back with where splines are
+ *   of segments; RawBytes, ZLibBytes: of the voxels, as they are and deflated by
  *   vtkZLibDataCompressor;
  * - Seconds: of port 3;
  * - Domain (string), over what the segment was fitted: ImageBox (one spline for all), SegmentBox,
- *   Cubes, LayeredCubes (cubes with blocks along the surface; only the rounds of
- *   vtkTSplineReconstruction tell, without them they are Cubes), None (the spline has no such
- *   segment); Mixed in the last row where segments differ.
+ *   Cubes, LayeredCubes (cubes with blocks along the surface; only the rounds tell, without them
+ *   they are Cubes), None (the spline has no such segment); Mixed in the last row where segments differ.
  * Where one spline stands for several segments, what else concerns the spline is in the last row
  * only.
  *
@@ -81,7 +81,7 @@
  *
  * @par Errors
  * An image without points or without the chosen array, with more than one component, NaN or
- * infinity, labels that are no whole numbers or, for a spline of several segments, none; a grid
+ * infinity, labels that are no whole numbers or, for splines of several segments, none; a grid
  * that is no T-spline or has no attribute of that name; too little memory.
  *
  * @sa vtkTSplineFit vtkTSplineSource vtkTSplineReconstruction

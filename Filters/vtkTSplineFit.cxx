@@ -25,10 +25,12 @@
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStringArray.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 
 using namespace trivariate;
@@ -82,7 +84,8 @@ void AddNumbers(vtkFieldData* field, const char* name, const std::vector<double>
 }
 
 //------------------------------------------------------------------------------
-void ReportShape(const BlockFitResult& result, Index voxels, double spacing, vtkFieldData* field)
+void ReportShape(const BlockFitResult& result, Index voxels, double spacing,
+  const std::set<int>& layered, vtkFieldData* field)
 {
   const auto number = [](Index n) { return static_cast<double>(n); };
   AddNumbers<vtkIdTypeArray>(field, "ShapeControlPoints", { number(result.ShapePoints) });
@@ -97,13 +100,17 @@ void ReportShape(const BlockFitResult& result, Index voxels, double spacing, vtk
   segments->SetName("FittedSegment");
   vtkNew<vtkDoubleArray> errors;
   errors->SetName("FittedSegmentRMS");
+  vtkNew<vtkStringArray> domains;
+  domains->SetName("FittedDomain");
   for (const auto& [segment, rms] : result.SegmentRms)
   {
     segments->InsertNextValue(segment);
     errors->InsertNextValue(100.0 * rms);
+    domains->InsertNextValue(layered.count(segment) > 0 ? "LayeredCubes" : "Cubes");
   }
   field->AddArray(segments);
   field->AddArray(errors);
+  field->AddArray(domains);
   AddNumbers<vtkDoubleArray>(field, "FittedRange", result.Ranges);
   AddNumbers<vtkDoubleArray>(field, "GradientJump", { result.Jump.Rms, result.Jump.Maximum });
   AddNumbers<vtkIdTypeArray>(field, "ShapeCells",
@@ -253,7 +260,8 @@ void vtkTSplineFit::FitDomain(ImageSamples& samples, vtkInformationVector** inpu
     shared->InsertNextValue(point);
   }
   ToTable(result.Rounds, rounds);
-  ReportShape(result, voxels.Count(), options.Spacing, rounds->GetFieldData());
+  ReportShape(result, voxels.Count(), options.Spacing,
+    LayeredSegments(vtkUnstructuredGrid::GetData(inputVector[1])), rounds->GetFieldData());
   TSplineToGrid(ToModel(result, blocks, samples), output);
   output->GetPointData()->AddArray(shared);
 }

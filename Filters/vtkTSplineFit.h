@@ -56,6 +56,7 @@
  * half a voxel away from it, which take their nearest point), SmallestJacobian (double: least
  * determinant of d(X, Y, Z)/d(u, v, w), in parts of its mean), FittedSegment (int32) and
  * FittedSegmentRMS (double, percent of the range as RMS: the last round's in each of them),
+ * FittedDomain (string, of each of them: Cubes, or LayeredCubes with blocks along the surface),
  * FittedRange (double, a component for each of the attributes': the range of the voxels that
  * count), ShapeCells (vtkIdType x 3: Bezier cells of the shape, those with a fold, those proven to
  * have none) and GradientJump (double x 2: root mean square and largest jump of an attribute's

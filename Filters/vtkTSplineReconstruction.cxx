@@ -37,6 +37,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <sstream>
 #include <stdexcept>
 
 using namespace trivariate;
@@ -231,20 +232,18 @@ vtkSmartPointer<vtkTSplineFit> vtkTSplineReconstruction::FitBox(
 }
 
 //------------------------------------------------------------------------------
-// Whether one spline over the whole image does better than one for each segment.
-bool vtkTSplineReconstruction::IsBoxBetter(vtkTSplineFit* box, const SegmentFits& segments)
+// A sentence where one spline over the whole image does better than one for each segment.
+std::string vtkTSplineReconstruction::WhyBox(vtkTSplineFit* box, const SegmentFits& segments)
 {
   const double rms = LastRms(vtkTable::SafeDownCast(box->GetOutputDataObject(1)));
   const Index points = box->GetOutput()->GetNumberOfPoints(), others = segments.ControlPoints;
   const bool meetTolerance = std::max(rms, segments.RmsPercent) <= this->RMSTolerance;
   const bool better = meetTolerance ? points <= others : rms <= segments.RmsPercent;
-  if (better)
-  {
-    vtkWarningMacro("One spline stands for all segments: its error is "
-                    << rms << " % at " << points << " control points, that of one for each "
-                    << segments.RmsPercent << " % at " << others << ".");
-  }
-  return better;
+  std::ostringstream why;
+  why << "One spline stands for all segments: its error is " << rms << " % at " << points
+      << " control points, that of one for each " << segments.RmsPercent << " % at " << others
+      << ".";
+  return better ? why.str() : "";
 }
 
 //------------------------------------------------------------------------------
@@ -380,7 +379,8 @@ void vtkTSplineReconstruction::FitParts(vtkImageData* image, bool labelled,
   if (end < 1.0)
   {
     const auto box = this->FitBox(image, chain, AllFitted, 1.0);
-    if (this->IsBoxBetter(box, fits))
+    chain.Remark = this->WhyBox(box, fits);
+    if (!chain.Remark.empty())
     {
       output->ShallowCopy(box->GetOutput());
       rounds->ShallowCopy(box->GetOutputDataObject(1));
@@ -428,7 +428,7 @@ int vtkTSplineReconstruction::RequestData(
           MakeImage(input, arrays, labels), labels != nullptr, given, chain, outputVector);
       }
       this->Warn(chain.Warnings);
-      WriteSeconds(chain, vtkTable::GetData(outputVector, ROUNDS));
+      WriteCourse(chain, vtkTable::GetData(outputVector, ROUNDS));
       return 1;
     });
 }

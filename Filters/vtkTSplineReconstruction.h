@@ -52,7 +52,7 @@
  * the segment itself; NaN with several attributes), GradientJump (double, root mean square, of
  * vtkTSplineFit) and Domain (string: SegmentBox, Cubes or LayeredCubes). Field data: Step (string)
  * and StepSeconds (double), where the time went: the names of the filters without "vtk", FitOverBox
- * and FitOverCubes. Unless Domain is BOX also:
+ * and FitOverCubes; Remark (string) where AUTOMATIC takes one spline over the whole image. Unless Domain is BOX also:
  * Port 2: the image with the point array Segment. Port 3: vtkPolyData, the surfaces of the segments
  * of vtkSegmentBoundary.
  * With Domain AUTOMATIC or GIVEN also, of those segments that have a domain:
@@ -203,7 +203,7 @@ private:
   trivariate::SegmentFitOptions FitOptions(vtkImageData* image);
   vtkSmartPointer<vtkTSplineFit> FitBox(
     vtkImageData* image, trivariate::Chain& chain, double from, double to);
-  bool IsBoxBetter(vtkTSplineFit* box, const trivariate::SegmentFits& segments);
+  std::string WhyBox(vtkTSplineFit* box, const trivariate::SegmentFits& segments);
   void FitParts(vtkImageData* image, bool labelled,
     const std::vector<trivariate::GivenDomain>& given, trivariate::Chain& chain,
     vtkInformationVector* outputVector);

@@ -182,7 +182,7 @@ void vtkTSplineSource::Evaluate(
   const auto fill = [&view, pointsInfo, output](const trivariate::Execution& part)
   {
     vtkDataSet* points = vtkDataSet::SafeDownCast(output);
-    if (trivariate::SegmentsOf(view.Model).size() > 1)
+    if (trivariate::AreOfSegments(view.Model))
     {
       vtkDataSet* labelled = pointsInfo ? vtkDataSet::GetData(pointsInfo) : nullptr;
       trivariate::FillPointsOfSegments(

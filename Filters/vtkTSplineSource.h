@@ -38,9 +38,11 @@
  *
  * The splines of several segments overlap in space. For IMAGE and POINTS the point array Segment of
  * port 1 tells whose spline counts at a point; without it that of the highest segment that holds
- * the point does. A voxel with a label that lies outside of its segment's spline, but not more than
- * 1.5 times the largest of the voxels' three spacings, takes the value at the nearest point of
- * that: a smooth surface does not go around every voxel.
+ * the point does. The same holds for the spline of one segment, fitted over its domain, whose
+ * number is not 0; that of a fit without domain stands for all points. A voxel with a label that
+ * lies outside of its segment's spline, but not more than 1.5 times the largest of the voxels'
+ * three spacings, takes the value at the nearest point of that: a smooth surface does not go around
+ * every voxel.
  *
  * @par Arrays
  * All floating point arrays are double. Point arrays:

@@ -286,7 +286,7 @@ def measure(path, source, name, model, rounds, segments):
     table = output_of(report)
     if table.GetNumberOfRows() == 0:
         fail("the report failed, as told above")
-    save(path, report)
+    save(path, report, Precision=12, UseScientificNotation=0)
     last = table.GetNumberOfRows() - 1
     columns = [table.GetColumn(i) for i in range(table.GetNumberOfColumns())]
     numbers = {column.GetName(): column.GetTuple1(last)
@@ -329,6 +329,13 @@ def seconds_by_step(rounds):
             for i in range(names.GetNumberOfValues())}
 
 
+def tell_remark(rounds):
+    """On a choice that is no fault, which therefore no warning tells."""
+    remark = output_of(rounds).GetFieldData().GetAbstractArray("Remark")
+    if remark:
+        say("  " + remark.GetValue(0))
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--volume")
@@ -363,6 +370,7 @@ def main():
         RMSTolerance=options.tolerance,
         MaximumNumberOfControlPoints=options.control_points or 50000)
     step("fit", run, fit, "the fit")
+    tell_remark(simple.OutputPort(fit, 1))
     for old in results:
         os.remove(old)  # not before: with bad input they stay; some may not come anew
     step("write", save, path("model.tspline"), fit)

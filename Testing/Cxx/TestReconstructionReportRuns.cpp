@@ -6,6 +6,7 @@
 #include "vtkTSplineFit.h"
 
 #include "vtkCallbackCommand.h"
+#include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkIntArray.h"
 #include "vtkPolyData.h"
@@ -114,6 +115,11 @@ TEST(ReconstructionReport, TakesErrorsOverADomainFromTheFit)
   EXPECT_GT(Cell(report, 2, "GradientJumpPercent"), 0.0);
   EXPECT_EQ(DomainIn(report, 1), "Cubes");
   EXPECT_TRUE(std::isnan(Cell(report, 0, "RMSPercent"))); // what lies around the ball
+  EXPECT_TRUE(std::isnan(Cell(report, 0, "ControlPoints")));
+  EXPECT_EQ(Cell(report, 0, "FoundPercent"), 0.0);
+  EXPECT_EQ(DomainIn(report, 0), "None");
+  EXPECT_EQ(Cell(report, 1, "FoundPercent"), 100.0);
+  EXPECT_EQ(Cell(report, 1, "ControlPoints"), Cell(report, 2, "ControlPoints"));
   // What the fit counts: points once, and coordinates on the net that they were fitted on.
   const double distinct = Cell(report, 2, "DistinctControlPoints");
   EXPECT_EQ(
@@ -122,6 +128,18 @@ TEST(ReconstructionReport, TakesErrorsOverADomainFromTheFit)
   EXPECT_EQ(Cell(report, 2, "NumbersStored"), 4.0 * distinct);
   EXPECT_EQ(field->GetArray("NumbersFitted")->GetTuple1(0),
     3.0 * field->GetArray("ShapeControlPoints")->GetTuple1(0) + distinct);
+
+  // With blocks along the surface, of which only the polycube tells.
+  const vtkIdType cubes = ball.Polycube->GetNumberOfCells();
+  const auto patches = trivariate_testing::NamedArray<vtkIntArray>("Patch", 1, cubes);
+  for (vtkIdType cell = 0; cell < cubes; ++cell)
+  {
+    patches->SetValue(cell, cell > 0 ? static_cast<int>(cell) : -1);
+  }
+  ball.Polycube->GetCellData()->AddArray(patches);
+  fit->Modified();
+  report->Update();
+  EXPECT_EQ(DomainIn(report, 1), "LayeredCubes");
 
   // Where nothing tells what the fit ended with, the array's parameters count.
   report->SetInputConnection(3, nullptr);

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ErrorLog.h"
 #include "ReconstructionPhantom.h"
+#include "WarningLog.h"
 #include "vtkPolycubeDomain.h"
 #include "vtkSegmentBoundary.h"
 #include "vtkTSplineFit.h"
 
+#include "vtkAbstractArray.h"
 #include "vtkCellData.h"
 #include "vtkFieldData.h"
 #include "vtkMeshQuality.h"
@@ -13,6 +15,7 @@
 #include "vtkPolyData.h"
 #include "vtkStructuredGrid.h"
 #include "vtkTable.h"
+#include "vtkVariant.h"
 
 #include <algorithm>
 #include <array>
@@ -165,7 +168,13 @@ TEST(TSplineReconstruction, TakesOneSplineForAllWhereThatIsBetter)
   reconstruction->SetMaximumNumberOfControlPoints(600);
   reconstruction->SetRMSTolerance(0.0);
   reconstruction->SetDomainToAutomatic();
+  const WarningLog log(reconstruction);
   reconstruction->Update();
+  EXPECT_FALSE(log.Says("One spline"));
+  vtkFieldData* told = Output<vtkTable>(reconstruction, 1)->GetFieldData();
+  EXPECT_EQ(told->GetAbstractArray("Remark")->GetVariantValue(0).ToString().find(
+              "One spline stands for all segments: its error is "),
+    0u);
   auto box = Reconstruct(image);
   box->SetMaximumNumberOfControlPoints(600);
   box->SetRMSTolerance(0.0);
