@@ -13,13 +13,12 @@
 #include "SMPExecution.h"
 #include "SegmentFits.h"
 #include "SegmentSurface.h"
+#include "SegmentedImage.h"
 #include "SharedPieces.h"
 #include "TSplineGrid.h"
 #include "vtkPolycubeDomain.h"
 #include "vtkSegmentBoundary.h"
-#include "vtkSegmentTopology.h"
 #include "vtkTSplineFit.h"
-#include "vtkTextureSegmentation.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
@@ -61,7 +60,7 @@ enum Outputs
 };
 
 // Where the steps end, as shares of the progress.
-constexpr double Segmented = 0.2, Whole = 0.23, Bounded = 0.27, LaidOut = 0.35, Filled = 0.5,
+constexpr double Whole = 0.23, Bounded = 0.27, LaidOut = 0.35, Filled = 0.5,
                  FilledAgain = 0.6, AllFitted = 0.9;
 
 //------------------------------------------------------------------------------
@@ -321,34 +320,11 @@ void vtkTSplineReconstruction::Warn(const std::vector<std::string>& warnings)
 }
 
 //------------------------------------------------------------------------------
-// The image with the point array Segment, every segment in one piece.
-vtkSmartPointer<vtkImageData> vtkTSplineReconstruction::Split(
-  vtkImageData* image, bool labelled, Chain& chain)
-{
-  vtkNew<vtkTextureSegmentation> segmentation;
-  vtkNew<vtkSegmentTopology> topology;
-  topology->SetController(nullptr);
-  topology->SetInputData(image);
-  if (!labelled)
-  {
-    segmentation->SetController(nullptr);
-    segmentation->SetInputData(image);
-    segmentation->SetInputArrayToProcess(
-      0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, image->GetPointData()->GetArrayName(0));
-    segmentation->SetNumberOfSegments(this->NumberOfSegments);
-    ChainStep(segmentation, chain, 0.0, Segmented).RunTelling();
-    topology->SetInputData(segmentation->GetOutput());
-  }
-  ChainStep(topology, chain, Segmented, Whole).RunTelling();
-  return vtkImageData::SafeDownCast(topology->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
 void vtkTSplineReconstruction::FitParts(vtkImageData* image, bool labelled,
   const std::vector<GivenDomain>& given, Chain& chain, vtkInformationVector* outputVector)
 {
   vtkImageData* segments = vtkImageData::GetData(outputVector, SEGMENTED);
-  segments->ShallowCopy(this->Split(image, labelled, chain));
+  segments->ShallowCopy(SplitImage(image, { labelled, this->NumberOfSegments }, chain, Whole));
   if (this->Domain != SEGMENTS)
   {
     vtkImageData::GetData(outputVector, FIELDS)->ShallowCopy(segments);

@@ -207,7 +207,6 @@ private:
   void FitParts(vtkImageData* image, bool labelled,
     const std::vector<trivariate::GivenDomain>& given, trivariate::Chain& chain,
     vtkInformationVector* outputVector);
-  vtkSmartPointer<vtkImageData> Split(vtkImageData* image, bool labelled, trivariate::Chain& chain);
   std::vector<trivariate::FilledDomains> Fill(vtkImageData* segments, vtkPolyData* surfaces,
     const std::vector<trivariate::GivenDomain>& given, trivariate::Chain& chain,
     vtkInformationVector* outputVector);

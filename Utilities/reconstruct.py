@@ -144,10 +144,13 @@ def run(step, what):
 def listen(proxy):
     """Tells the warnings and errors of the filter behind the proxy, without their place in VTK."""
     algorithm = proxy.GetClientSideObject()
+    told = set()  # a filter that failed runs again when it is asked for its output
 
     def tell(_, __, text):
-        for line in text.split("): ", 1)[-1].strip().splitlines():
-            say("  " + line)
+        if text not in told:
+            told.add(text)
+            for line in text.split("): ", 1)[-1].strip().splitlines():
+                say("  " + line)
 
     tell.CallDataType = VTK_STRING
     for event in ("ErrorEvent", "WarningEvent"):

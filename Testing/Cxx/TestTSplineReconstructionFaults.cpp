@@ -203,12 +203,35 @@ TEST(TSplineReconstruction, SaysWhatIsWrong)
     reconstruction->SetInputData(slice);
     expect("12 x 9 x 1 points");
   }
+  reconstruction->SetInputData(Lattice(12, 2, 9, 1)); // thick enough for a box, not for a texture
+  expect("12 x 2 x 9 points; to be split by texture it needs three or more along each axis");
   const auto vectors = Lattice(12, 9, 8, 3); // fitted over a box, but without a texture
   reconstruction->SetInputData(vectors);
   expect("has 3 components");
   vtkNew<vtkImageData> empty;
   reconstruction->SetInputData(empty);
   expect("no points");
+}
+
+//------------------------------------------------------------------------------
+// The window of the texture is as large as there is room for.
+TEST(TSplineReconstruction, TakesAnImageThatIsSmallerThanTheWindow)
+{
+  const auto image = Lattice(4, 3, 5, 1);
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    image->GetPointData()->GetScalars()->SetTuple1(i, static_cast<double>(i % 7));
+  }
+  auto reconstruction = Reconstruct(image);
+  reconstruction->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "None");
+  reconstruction->SetDomainToAutomatic();
+  ErrorLog errors(reconstruction);
+  reconstruction->Update();
+  EXPECT_EQ(errors.TakeOnly(), "0 errors");
+  const auto report = ReportOn(reconstruction);
+  const vtkIdType last = report->GetNumberOfRows() - 1;
+  EXPECT_EQ(report->GetValueByName(last, "FoundPercent").ToDouble(), 100.0);
+  EXPECT_LT(report->GetValueByName(last, "RoundTripRMSPercent").ToDouble(), 1.0);
 }
 
 //------------------------------------------------------------------------------
