@@ -165,9 +165,12 @@ BlockMesh RefineBlockMesh(const BlockDomain& domain, const BlockMesh& mesh,
   const BlockMeshOptions& options, const Execution& execution, BlockMeshReport* report)
 {
   BlockMesh refined = Resampled(mesh, domain.Blocks, SizesOf(domain, options));
-  const DomainSurface surface(domain, MeanLength(domain, refined.Sizes));
-  SlidingNodes sliding(surface, refined, options.Freedom);
-  BoundaryFit fit(surface, refined);
+  // The borders that hold nodes are those that held them in the mesh.
+  const DomainSurface surface(domain, MeanLength(domain, mesh.Sizes));
+  BlockMesh start = mesh;
+  const SlidingNodes slid(surface, start, options.Freedom, SlidingNodes::WhereTheySlid);
+  SlidingNodes sliding(refined, start, slid);
+  BoundaryFit fit(refined, BoundaryFit(surface, start));
   const CellQuality before = QualityOf(refined, execution);
   RepairOptions repair = options.Repair;
   repair.MostRounds = 1; // what folds stayed in the mesh would stay again

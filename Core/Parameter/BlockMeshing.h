@@ -38,8 +38,8 @@ double CountCells(const std::vector<std::array<int, 3>>& sizes);
 BlockMesh MakeBlockMesh(const BlockDomain& domain, const BlockMeshOptions& options,
   const Execution& execution, BlockMeshReport* report = nullptr);
 
-/// A mesh of the domain at another resolution; untangled, in one round, where new nodes on the
-/// surface fold cells.
+/// A mesh of the domain at another resolution, nodes on the surface where they slid: at its own
+/// resolution the same. Untangled, in one round, where new nodes on the surface fold cells.
 BlockMesh RefineBlockMesh(const BlockDomain& domain, const BlockMesh& mesh,
   const BlockMeshOptions& options, const Execution& execution, BlockMeshReport* report = nullptr);
 }

@@ -77,4 +77,20 @@ SurfaceFoot DomainSurface::NearestOnPatch(Index patch, const Vector3d& place) co
   const TriangleTree::Foot foot = this->Patches[patch].Tree->Nearest(place);
   return { this->Domain.Patches[patch].Triangles[foot.Triangle], foot.Place };
 }
+
+SurfaceFoot DomainSurface::NearestOnPieceOf(Index patch, const Vector3d& place) const
+{
+  SurfaceFoot nearest = this->NearestOnPatch(patch, place);
+  for (std::size_t other = 0; other < this->Patches.size(); ++other)
+  {
+    const Index p = static_cast<Index>(other);
+    const SurfaceFoot foot = this->NearestOnPatch(p, place);
+    if (this->PieceOfPatch(p) == this->PieceOfPatch(patch) &&
+        (foot.Place - place).squaredNorm() < (nearest.Place - place).squaredNorm())
+    {
+      nearest = foot;
+    }
+  }
+  return nearest;
+}
 }

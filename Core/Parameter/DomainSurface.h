@@ -33,6 +33,9 @@ public:
   /// The point of a patch that is nearest, anywhere on it.
   SurfaceFoot NearestOnPatch(Index patch, const Eigen::Vector3d& place) const;
 
+  /// The nearest point of all patches of its piece of surface.
+  SurfaceFoot NearestOnPieceOf(Index patch, const Eigen::Vector3d& place) const;
+
   Index PieceOfPatch(Index patch) const
   {
     return this->Walk.PieceOf(this->Domain.Patches[patch].Triangles.front());

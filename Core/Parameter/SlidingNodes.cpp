@@ -49,7 +49,8 @@ Vector3d NearestOfLine(const std::vector<Vector3d>& line, const Vector3d& p, Vec
 }
 
 //------------------------------------------------------------------------------
-SlidingNodes::SlidingNodes(const DomainSurface& surface, BlockMesh& mesh, double freedom)
+SlidingNodes::SlidingNodes(
+  const DomainSurface& surface, BlockMesh& mesh, double freedom, Start start)
   : On(&surface)
   , Most(freedom)
 {
@@ -59,7 +60,9 @@ SlidingNodes::SlidingNodes(const DomainSurface& surface, BlockMesh& mesh, double
     Vector3d& place = mesh.Places[node];
     if (this->Kinds[node] == OnSurface)
     {
-      this->Feet[node] = surface.NearestOnPatch(this->Support[node], place);
+      this->Feet[node] = start == InPatches
+                           ? surface.NearestOnPatch(this->Support[node], place)
+                           : surface.NearestOnPieceOf(this->Support[node], place);
     }
     place = this->Allowed(static_cast<Index>(node), place, this->Feet[node]);
   }

@@ -25,12 +25,19 @@ public:
     Fixed
   };
 
+  enum Start
+  {
+    InPatches,    ///< nodes are put on the nearest point of their patch
+    WhereTheySlid ///< on that of the piece: those of a mesh that is repaired keep their places
+  };
+
   /**
-   * Puts the nodes of a mesh that belong on the surface there: on the nearest point of their patch.
-   * freedom: how far they may leave the surface, in space. The surface must outlive this.
-   * O(n log n).
+   * Puts the nodes of a mesh that belong on the surface there. freedom: how far they may leave the
+   * surface, in space. The surface must outlive this. O(n log n), times the number of patches for
+   * nodes that slid.
    */
-  SlidingNodes(const DomainSurface& surface, BlockMesh& mesh, double freedom);
+  SlidingNodes(
+    const DomainSurface& surface, BlockMesh& mesh, double freedom, Start start = InPatches);
 
   /// The same where `mesh` is `coarse` at another resolution: the nearest point within reach from
   /// where the coarse nodes are.
