@@ -8,6 +8,7 @@
 #include "Parameter/BlockMeshing.h"
 #include "SMPExecution.h"
 
+#include "vtkDataArray.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -21,6 +22,8 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -106,13 +109,72 @@ int vtkHexRemesh::RequestData(
     });
 }
 
+namespace
+{
+constexpr double FarthestOutside = 1.0; // of patches from their image, in voxels
+
+// Whether the image is the one that the patches are of.
+void CheckImage(vtkImageData* image, vtkPolyData* patches)
+{
+  if (image->GetNumberOfPoints() == 0)
+  {
+    throw std::invalid_argument("The image has no points.");
+  }
+  const int* extent = image->GetExtent();
+  double outside = 0.0;
+  for (vtkIdType p = 0; p < patches->GetNumberOfPoints(); ++p)
+  {
+    double x[3], index[3];
+    patches->GetPoint(p, x);
+    image->TransformPhysicalPointToContinuousIndex(x, index);
+    for (int a = 0; a < 3; ++a)
+    {
+      outside = std::max({ outside, extent[2 * a] - index[a], index[a] - extent[2 * a + 1] });
+    }
+  }
+  if (!(outside <= FarthestOutside))
+  {
+    std::ostringstream fault;
+    fault << "The patches reach " << outside
+          << " voxels out of the image: it is not the one that they are of.";
+    throw std::invalid_argument(fault.str());
+  }
+}
+
+// A sentence where arrays at the nodes are not finite, or none.
+std::string WarningOf(vtkPointData* attributes)
+{
+  std::ostringstream warning;
+  for (int a = 0; a < attributes->GetNumberOfArrays(); ++a)
+  {
+    vtkDataArray* array = attributes->GetArray(a);
+    vtkIdType bad = 0;
+    for (vtkIdType node = 0; node < array->GetNumberOfTuples(); ++node)
+    {
+      const double* tuple = array->GetTuple(node);
+      bad += !std::all_of(tuple, tuple + array->GetNumberOfComponents(),
+        [](double value) { return std::isfinite(value); });
+    }
+    if (bad > 0)
+    {
+      warning << "The array \"" << array->GetName() << "\" is not finite at " << bad << " of "
+              << array->GetNumberOfTuples() << " nodes, nor in the image beside them. ";
+    }
+  }
+  return warning.str();
+}
+}
+
 //------------------------------------------------------------------------------
 void vtkHexRemesh::Remesh(vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkImageData* image = vtkImageData::GetData(inputVector[0]);
   auto* given = vtkPartitionedDataSetCollection::GetData(inputVector[3]);
-  const DomainInput input =
-    ReadDomain(vtkPolyData::GetData(inputVector[1]), vtkUnstructuredGrid::GetData(inputVector[2]));
+  this->InvertedBefore = this->InvertedCells = 0;
+  this->LeastScaledJacobian = this->MeanScaledJacobian = 0.0;
+  vtkPolyData* patches = vtkPolyData::GetData(inputVector[1]);
+  CheckImage(image, patches);
+  const DomainInput input = ReadDomain(patches, vtkUnstructuredGrid::GetData(inputVector[2]));
   const BlockDomain& domain = input.Domain;
   if (domain.Blocks.empty())
   {
@@ -154,9 +216,23 @@ void vtkHexRemesh::Remesh(vtkInformationVector** inputVector, vtkInformationVect
          "not fit the shape, cause this; try a smaller EdgeLength, more cubes or other "
          "corners.");
   }
+  const double farthest =
+    std::max(report.Distances.ToFaces.Largest, report.Distances.FromFaces.Largest);
+  if (this->CellsPerBlock == 0 && farthest > options.CellLength)
+  {
+    vtkWarningMacro("The cells are up to "
+      << farthest << " from the surface, more than they are long (" << options.CellLength
+      << "), and may not hold its volume: the domain does not fit limbs or pits of the segment "
+         "there. Try more cubes or other corners; PatchDistance and FaceDistance tell the means.");
+  }
 
   vtkNew<vtkPointData> attributes;
   SampleImage(image, mesh.Places, attributes);
+  const std::string warning = WarningOf(attributes);
+  if (!warning.empty())
+  {
+    vtkWarningMacro(<< warning);
+  }
   const BlockLabels labels{ domain.Segments, input.Groups, {} };
   WriteBlockMesh(
     mesh, labels, attributes, vtkPartitionedDataSetCollection::GetData(outputVector, 0));

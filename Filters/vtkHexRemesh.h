@@ -16,8 +16,8 @@
  * meshes as fourth input only these are resampled and, where that folds cells, untangled.
  *
  * @par Input
- * Port 0: vtkImageData, whose point arrays are sampled at the nodes (trilinear; labels, frames and
- * parameters are left out). Port 1: the patches and port 2: the polycube, outputs 0 and 1 of
+ * Port 0: vtkImageData, whose point arrays are sampled at the nodes (trilinear; the labels Segment,
+ * frames and parameters are left out, labels of other names are taken for numbers). Port 1: the patches and port 2: the polycube, outputs 0 and 1 of
  * vtkPolycubeDomain. Port 3 (optional): vtkPartitionedDataSetCollection, block meshes of this
  * polycube, as this filter or vtkVolumeParameterization writes them.
  *
@@ -45,8 +45,10 @@
  * Process 0 makes all, from whole inputs; the others give nothing.
  *
  * @par Errors
- * No polycube, or one that the patches do not fit; more cells than MostCells. A warning says how
- * many cells are inverted, if any are left.
+ * No polycube, or one that the patches do not fit; an image without points, or one that the patches
+ * reach out of by more than a voxel; more cells than MostCells. Warnings say how many cells are
+ * inverted, if any are left, how far they are from the surface, if that is more than EdgeLength,
+ * and at how many nodes an array is not finite.
  *
  * @par Reference
  * V. Garanzha, I. Kaporin, L. Kudryavtseva, F. Protais, N. Ray, D. Sokolov. Foldover-free maps in
@@ -101,7 +103,7 @@ public:
   /**
    * After an update: how many cells are inverted in the mesh as it was interpolated and in the
    * output, that is, have a determinant of 0 or less at a corner or at one of 3 x 3 x 3 Gauss
-   * points; the least and mean scaled Jacobian of the output.
+   * points; the least and mean scaled Jacobian of the output. 0 after one that failed.
    */
   vtkGetMacro(InvertedBefore, vtkIdType);
   vtkGetMacro(InvertedCells, vtkIdType);

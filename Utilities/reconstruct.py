@@ -15,6 +15,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkCommonCore import vtkSMPTools
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkUnstructuredGrid
+from vtkmodules.vtkFiltersVerdict import vtkMeshQuality
 
 import given_domain
 import picture
@@ -191,6 +192,15 @@ def not_empty(proxy, port):
     return output if output_of(output).GetNumberOfPoints() > 0 else None
 
 
+def volume_of(mesh):
+    """The sum over all hexahedra."""
+    quality = vtkMeshQuality()
+    quality.SetInputData(mesh)
+    quality.SetHexQualityMeasureToVolume()
+    quality.Update()
+    return float(vtk_to_numpy(quality.GetOutput().GetCellData().GetArray("Quality")).sum())
+
+
 class Segments:
     """What the steps beside the fit make of the volume: each an output of a filter, or None."""
     labelled = surfaces = whole = patches = polycubes = fields = hexahedra = None
@@ -249,7 +259,7 @@ class Segments:
         return int((numpy.isin(owners, segments) & (patches == -1)).sum())
 
     def quality(self):
-        """Of the hexahedra: how many were inverted, how many are, least and mean Jacobian."""
+        """Of the hexahedra: inverted ones, Jacobians, volume and distance."""
         if self.hexahedra is None:
             return {"mean_scaled_jacobian": None, "inverted_cells_before": None,
                     "inverted_cells_after": None, "hexahedra": None}
@@ -257,11 +267,20 @@ class Segments:
         field = mesh.GetFieldData()
         before, after = field.GetArray("InvertedCells").GetTuple(0)
         least, mean = field.GetArray("ScaledJacobian").GetTuple(0)
+        labelled = output_of(self.labelled if self.whole is None else self.whole)
+        voxel = math.prod(labelled.GetSpacing())
+        counts = numpy.isin(vtk_to_numpy(labelled.GetPointData().GetArray("Segment")),
+                            vtk_to_numpy(mesh.GetCellData().GetArray("Segment"))).sum()
+        farthest = {key: field.GetArray(name).GetComponent(0, 1) / voxel ** (1 / 3)
+                    for key, name in (("surface_to_cells", "PatchDistance"),
+                                      ("cells_to_surface", "FaceDistance"))}
         return {"mean_scaled_jacobian": mean, "inverted_cells_before": int(before),
                 "inverted_cells_after": int(after),
                 "hexahedra": {"cells": mesh.GetNumberOfCells(),
                               "inverted_cells": {"before": int(before), "after": int(after)},
-                              "min_scaled_jacobian": least, "mean_scaled_jacobian": mean}}
+                              "min_scaled_jacobian": least, "mean_scaled_jacobian": mean,
+                              "volume_ratio": volume_of(mesh) / (counts * voxel),
+                              "distance_voxels": farthest}}
 
     def save(self, path):
         for name, output in (("segments.vti", self.labelled), ("boundary.vtp", self.surfaces),

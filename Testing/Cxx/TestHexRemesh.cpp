@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DomainChecks.h"
+#include "WarningLog.h"
 #include "vtkHexRemesh.h"
 
 #include "vtkCallbackCommand.h"
@@ -10,6 +11,11 @@
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkSMPTools.h"
 #include "vtkStructuredGrid.h"
+
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
 
 namespace
 {
@@ -133,8 +139,54 @@ TEST(HexRemesh, HoldsTheVolume)
   {
     mesh.Filter->SetEdgeLength(edge);
     mesh.Filter->Update();
-    EXPECT_NEAR(VolumeOfCells(mesh.Filter->GetHexahedra(), 1), volume, share * volume) << edge;
+    vtkUnstructuredGrid* cells = mesh.Filter->GetHexahedra();
+    EXPECT_NEAR(VolumeOfCells(cells, 1), volume, share * volume) << edge;
+    for (const char* distance : { "PatchDistance", "FaceDistance" })
+    {
+      EXPECT_LT(cells->GetFieldData()->GetArray(distance)->GetComponent(0, 1), 0.5) << edge;
+    }
   }
+}
+
+// Of shapes with other proportions and with sharp edges surface and cells are nowhere half a voxel
+// apart either.
+TEST(HexRemesh, IsOnTheSurface)
+{
+  const auto ellipsoid = [](const double* p)
+  { return std::pow(p[0] / 9.6, 2) + std::pow(p[1] / 6.3, 2) + std::pow(p[2] / 7.4, 2) < 1.0; };
+  const auto cylinder = [](const double* p)
+  { return std::hypot(p[0], p[1]) < 6.4 && std::abs(p[2]) < 8.5; };
+  const auto box = [](const double* p)
+  { return std::abs(p[0]) < 8.5 && std::abs(p[1]) < 5.5 && std::abs(p[2]) < 6.5; };
+  for (const std::function<int(const double*)>& shape :
+    std::vector<std::function<int(const double*)>>{ ellipsoid, cylinder, box })
+  {
+    const vtkNew<vtkPolyData> surface = SurfaceOf(11, shape);
+    Remeshed mesh(surface);
+    const WarningLog warnings(mesh.Filter);
+    mesh.Filter->SetEdgeLength(1.0);
+    mesh.Filter->Update();
+    vtkUnstructuredGrid* cells = mesh.Filter->GetHexahedra();
+    EXPECT_EQ(mesh.Filter->GetInvertedCells(), 0);
+    EXPECT_EQ(warnings.Text, "");
+    EXPECT_NEAR(VolumeOfCells(cells, 1), VolumeOf(surface, 1), 0.005 * VolumeOf(surface, 1));
+    for (const char* distance : { "PatchDistance", "FaceDistance" })
+    {
+      EXPECT_LT(cells->GetFieldData()->GetArray(distance)->GetComponent(0, 1), 0.5) << distance;
+    }
+  }
+}
+
+TEST(HexRemesh, WarnsOfLimbsThatItDoesNotReach)
+{
+  const vtkNew<vtkPolyData> surface = SurfaceOf(11,
+    [](const double* p)
+    { return vtkMath::Norm(p) < 4.5 || (std::hypot(p[0], p[1]) < 0.8 && std::abs(p[2]) < 10.5); });
+  Remeshed mesh(surface);
+  const WarningLog warnings(mesh.Filter);
+  mesh.Filter->SetEdgeLength(1.5);
+  mesh.Filter->Update();
+  EXPECT_TRUE(warnings.Says("from the surface, more than they are long (1.5)")) << warnings.Text;
 }
 
 TEST(HexRemesh, SharesTheNodesBetweenSegments)
@@ -273,6 +325,34 @@ TEST(HexRemesh, SaysWhatIsWrong)
       EXPECT_NE(error.find("choose a larger EdgeLength"), std::string::npos) << tiny;
       EXPECT_EQ(error.find("have -"), std::string::npos) << error;
     }
+  }
+  {
+    Remeshed mesh(surface);
+    mesh.Filter->Update();
+    EXPECT_GT(mesh.Filter->GetMeanScaledJacobian(), 0.0);
+    ErrorLog errors(mesh.Filter);
+    const vtkNew<vtkImageData> elsewhere = LinearImage();
+    elsewhere->SetOrigin(9.0, 0.0, 0.0);
+    vtkNew<vtkImageData> empty;
+    for (const auto& [image, words] :
+      { std::pair(elsewhere.Get(), "voxels out of the image"), { empty.Get(), "has no points" } })
+    {
+      mesh.Filter->SetInputDataObject(0, image);
+      mesh.Filter->Update();
+      EXPECT_NE(errors.TakeOnly().find(words), std::string::npos);
+      EXPECT_EQ(mesh.Filter->GetMeanScaledJacobian(), 0.0);
+      EXPECT_EQ(mesh.Filter->GetHexahedra()->GetNumberOfCells(), 0);
+    }
+  }
+  {
+    Remeshed mesh(surface);
+    const vtkNew<vtkImageData> holes = LinearImage();
+    vtkDataArray* linear = holes->GetPointData()->GetArray("linear");
+    linear->SetComponent(holes->GetNumberOfPoints() / 2, 1, std::nan("")); // in the middle
+    const WarningLog warnings(mesh.Filter);
+    mesh.Filter->SetInputDataObject(0, holes);
+    mesh.Filter->Update();
+    EXPECT_TRUE(warnings.Says("The array \"linear\" is not finite at ")) << warnings.Text;
   }
   {
     Remeshed mesh(surface);

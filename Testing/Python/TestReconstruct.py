@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """reconstruct.sh on the built-in orbital: everything it promises is written, reads back and agrees;
 and on bad arguments it says what is wrong."""
+import csv
 import json
 import math
 import os
@@ -123,6 +124,9 @@ def test_results():
     assert abs(cells["min_scaled_jacobian"] - quality.min()) < 1e-9
     assert abs(cells["mean_scaled_jacobian"] - quality.mean()) < 1e-9
     assert report["mean_scaled_jacobian"] == cells["mean_scaled_jacobian"]
+    assert 0.97 < cells["volume_ratio"] < 1.03, cells
+    assert 0.0 < cells["distance_voxels"]["surface_to_cells"] < 2.0, cells
+    assert 0.0 < cells["distance_voxels"]["cells_to_surface"] < 2.0, cells
     for when in ("before", "after"):
         assert report["inverted_cells_" + when] == cells["inverted_cells"][when]
 
@@ -168,7 +172,9 @@ def test_segments():
     assert 0.5 * report["seconds"]["fit"] < sum(spent.values()) <= report["seconds"]["fit"]
     assert report["round_trip_rms_density_percent"] < 1.0, report
     with open("parts/report.csv", encoding="utf-8") as file:
-        assert len(file.readlines()) == 1 + 3
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 3
+    assert float(rows[-1]["SplineBytes"]) == os.path.getsize("parts/model.tspline")
     grid = vtkTSplineReader()
     grid.SetFileName("parts/model.tspline")
     grid.Update()
