@@ -38,20 +38,31 @@ def volumes_of(cells):
     return vtk_to_numpy(quality.GetOutput().GetCellData().GetArray("Quality"))
 
 
+def part_of(data, segment):
+    """The cells of one segment."""
+    part = vtkThreshold()
+    part.SetInputData(data)
+    part.SetInputArrayToProcess(0, 0, 0, 1, "Segment")
+    part.SetLowerThreshold(segment)
+    part.SetUpperThreshold(segment)
+    part.Update()
+    return part.GetOutput()
+
+
+def surface_of(grid):
+    surface = vtkDataSetSurfaceFilter()
+    surface.SetInputData(grid)
+    surface.Update()
+    return surface.GetOutput()
+
+
 def faces_of(cells):
     """The faces of each segment's cells that are not between two of them, each cut into triangles."""
     segments = numpy.unique(vtk_to_numpy(cells.GetCellData().GetArray("Segment")))
     faces = vtkAppendPolyData()
     for segment in segments:
-        own = vtkThreshold()
-        own.SetInputData(cells)
-        own.SetInputArrayToProcess(0, 0, 0, 1, "Segment")
-        own.SetLowerThreshold(segment)
-        own.SetUpperThreshold(segment)
-        outside = vtkDataSetSurfaceFilter()
-        outside.SetInputConnection(own.GetOutputPort())
         triangles = vtkTriangleFilter()
-        triangles.SetInputConnection(outside.GetOutputPort())
+        triangles.SetInputData(surface_of(part_of(cells, segment)))
         finer = vtkLinearSubdivisionFilter()
         finer.SetInputConnection(triangles.GetOutputPort())
         finer.SetNumberOfSubdivisions(2)
@@ -79,23 +90,33 @@ def volume_inside(patches):
     return surface.GetVolume()
 
 
-def print_row(folder, run):
+def print_row(name, edge, inverted, patches, mesh, seconds):
+    quality = vtk_to_numpy(mesh.GetCellData().GetArray("ScaledJacobian"))
+    volumes = volumes_of(mesh)
+    out, back = distances(patches, mesh)
+    low, high = numpy.percentile(volumes, [1, 99]) / volumes.mean()
+    print(f"| {name} | {edge} | {mesh.GetNumberOfCells():,} | {inverted} "
+          f"| {quality.min():.2f}, {quality.mean():.3f} | {low:.2f} to {high:.2f} "
+          f"| {100 * (volumes.sum() / volume_inside(patches) - 1):+.2f} % "
+          f"| {out.max():.2f} ({numpy.percentile(out, 99):.2f}), {back.max():.2f} | {seconds} |",
+          flush=True)
+
+
+def print_rows(folder, run):
+    """One for all, and where there are several one for each segment."""
     name, edge = run.split(":")
     patches, _, polycube = meshes.read_domain(folder, name)
     start = time.process_time()
     remesh = meshes.remesh(patches, polycube, float(edge))
     seconds = time.process_time() - start
     mesh = remesh.GetOutputDataObject(1)
-    quality = vtk_to_numpy(mesh.GetCellData().GetArray("ScaledJacobian"))
-    volumes = volumes_of(mesh)
-    out, back = distances(patches, mesh)
-    low, high = numpy.percentile(volumes, [1, 99]) / volumes.mean()
-    print(f"| {name.replace('=', ' > ')} | {edge} | {mesh.GetNumberOfCells():,} "
-          f"| {remesh.GetInvertedBefore():,}, then {remesh.GetInvertedCells():,} "
-          f"| {quality.min():.2f}, {quality.mean():.3f} | {low:.2f} to {high:.2f} "
-          f"| {100 * (volumes.sum() / volume_inside(patches) - 1):+.2f} % "
-          f"| {out.max():.2f} ({numpy.percentile(out, 99):.2f}), {back.max():.2f} | {seconds:.1f} |",
-          flush=True)
+    print_row(name.replace("=", " > "), edge,
+              f"{remesh.GetInvertedBefore():,}, then {remesh.GetInvertedCells():,}", patches, mesh,
+              f"{seconds:.1f}")
+    segments = numpy.unique(vtk_to_numpy(mesh.GetCellData().GetArray("Segment")))
+    for segment in segments if len(segments) > 1 else []:
+        print_row(f"its segment {segment}", "", "", surface_of(part_of(patches, segment)),
+                  part_of(mesh, segment), "")
     writer = vtkXMLUnstructuredGridWriter()
     writer.SetInputData(mesh)
     writer.SetFileName(str(folder / f"{meshes.stem(name)}_hexes.vtu"))
@@ -107,4 +128,4 @@ print("| segment | edge | cells | inverted | scaled Jacobian: least, mean | cell
       "the mean | volume | distance: surface to cells (99 %), back | CPU s |\n"
       "|---|---|---|---|---|---|---|---|---|")
 for argument in sys.argv[2:]:
-    print_row(pathlib.Path(sys.argv[1]), argument)
+    print_rows(pathlib.Path(sys.argv[1]), argument)

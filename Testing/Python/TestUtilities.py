@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Some of the scripts that make the tables and figures of Documentation/Results.md run on tiny
+"""Most of the scripts that make the tables and figures of Documentation/Results.md run on tiny
 volumes, so that a column or a field that gets another name is missed here first."""
 import os
 import pathlib
@@ -9,6 +9,7 @@ import subprocess
 import sys
 
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+from vtkmodules.vtkImagingSources import vtkImageGaussianSource
 
 from trivariate import vtkHydrogenOrbitalSource
 
@@ -18,14 +19,20 @@ os.environ["TRIVARIATE_DATA_DIR"] = "data"
 
 
 def make_data():
-    """A volume by the name of one that the figures know how to look at."""
+    """Volumes by the names of some that the figures know how to look at: an orbital, and a ball."""
     orbital = vtkHydrogenOrbitalSource()
     orbital.SetDimensions(16, 16, 16)
-    writer = vtkXMLImageDataWriter()
-    writer.SetInputConnection(orbital.GetOutputPort())
-    writer.SetFileName("data/fuel.vti")
+    ball = vtkImageGaussianSource()
+    ball.SetWholeExtent(0, 23, 0, 19, 0, 19)
+    ball.SetCenter(11.5, 9.5, 9.5)
+    ball.SetMaximum(40.0)
+    ball.SetStandardDeviation(6.4)
     os.makedirs("data", exist_ok=True)
-    writer.Write()
+    for volume, source in (("fuel", orbital), ("hydrogen_atom", ball)):
+        writer = vtkXMLImageDataWriter()
+        writer.SetInputConnection(source.GetOutputPort())
+        writer.SetFileName(f"data/{volume}.vti")
+        writer.Write()
 
 
 def run(*command):
@@ -80,6 +87,30 @@ def test_fits():
     assert shape < points <= 150 and numbers == 3 * shape + points, rows
 
 
+def draw(script, *arguments):
+    picture = pathlib.Path(script).with_suffix(".png")
+    picture.unlink(missing_ok=True)
+    folder, *runs = arguments
+    run(utilities / "with-display.sh", "pvpython", utilities / script, folder, picture, *runs)
+    assert picture.stat().st_size > 10000, script
+
+
+def test_domains():
+    """Domains, parameters and hexahedra of the ball, and their pictures."""
+    shutil.rmtree("domains", ignore_errors=True)
+    os.makedirs("domains")
+    ball = "hydrogen_atom=20"
+    rows = check_table(run(sys.executable, utilities / "domains.py", "--save", "domains", ball), 1)
+    assert rows[0][2:6] == ["8", "1", "7", "0"], rows
+    rows = check_table(run(sys.executable, utilities / "parameters.py", "domains", ball), 1)
+    assert float(rows[0][2].split(",")[0]) < 0.01 and rows[0][4].startswith("0 of "), rows
+    rows = check_table(run(sys.executable, utilities / "hexes.py", "domains", ball + ":2"), 1)
+    assert rows[0][3].endswith(", then 0") and abs(float(rows[0][6].rstrip(" %"))) < 0.5, rows
+    draw("domains_picture.py", "domains", ball)
+    draw("figure6.py", "domains", ball + ":2")
+    draw("hexes_picture.py", "domains/hydrogen_atom_20_hexes.vtu")
+
+
 def test_results():
     rows = check_table(run(sys.executable, utilities / "results.py", "results", "fuel=200"), 1)
     assert rows[0][:2] == ["fuel", "4,096"] and 64 <= int(rows[0][2]) <= 200, rows
@@ -90,4 +121,5 @@ test_table1()
 test_figure5()
 test_figures()
 test_fits()
+test_domains()
 test_results()
