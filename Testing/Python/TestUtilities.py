@@ -92,7 +92,7 @@ def draw(script, *arguments):
     picture.unlink(missing_ok=True)
     folder, *runs = arguments
     run(utilities / "with-display.sh", "pvpython", utilities / script, folder, picture, *runs)
-    assert picture.stat().st_size > 10000, script
+    assert picture.stat().st_size > 2000, script
 
 
 def test_domains():
