@@ -16,7 +16,7 @@
  * is a shell around it, with a block on each patch. A segment with handles gets cubes around its
  * holes where the normals of its surface show such cubes, as of a torus or a box with a hole; else
  * the message names the place of a handle. Neither the order of the triangles nor where the surface
- * lies changes what is found, nor a rotation where its principal axes are unique.
+ * lies changes what is found, nor a rotation where it is not round.
  *
  * What neighbours share: a segment that fills the cavity of another has that surface in common with
  * it, its corners, patches and coordinates. Two segments without cavities that touch in one disc

@@ -44,9 +44,8 @@ struct DomainOptions
  * relaxed if wanted (RelaxedLayout.h).
  *
  * All this is done on the surface as PosedSurface.h turns and sorts it: neither the order of its
- * points and triangles nor a translation changes the result, nor a rotation where its principal
- * axes are unique. Where they are not, as of a surface with fourfold symmetry, a rotation may lead
- * to another domain that is about as good.
+ * points and triangles nor a rigid motion changes the result, but for a surface that is round. On
+ * one with exact symmetries a rotation may lead to another domain that is about as good.
  *
  * Throws std::invalid_argument for a surface of several pieces, std::runtime_error with the reasons
  * (and the place of a handle) where no domain can be laid out. O(n log n): 5 to 25 s
@@ -55,7 +54,7 @@ struct DomainOptions
 SegmentDomain FindDomain(
   const SurfaceMesh& mesh, const DomainOptions& options, const Execution& execution);
 
-/// The same, searched in the pose of a surface around it, where its own may not be unique.
+/// The same, searched in the pose of a surface around it.
 SegmentDomain FindDomain(const SurfaceMesh& mesh, const SurfacePose& pose,
   const DomainOptions& options, const Execution& execution);
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PosedSurface.h"
 
-#include "NormalAxes.h"
+#include "OwnAxes.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/QR>
@@ -18,8 +18,7 @@ using Eigen::Vector3d;
 
 namespace
 {
-constexpr double LeastGap = 1e-4; // between moments along principal axes, of the largest
-constexpr int Bits = 18;          // of coordinates
+constexpr int Bits = 18; // of coordinates
 
 // Triangles as points with weights.
 struct Areas
@@ -54,17 +53,12 @@ Matrix3d Oblique()
   return Eigen::AngleAxisd(1.0, Vector3d(0.5, 0.3, 0.7).normalized()).toRotationMatrix();
 }
 
-Matrix3d FrameOf(const Areas& areas, const Vector3d& middle)
+Matrix3d FrameOf(const Areas& areas)
 {
-  const Matrix3d frame = PrincipalFrame(areas.Weights, areas.Centres);
-  Vector3d moments = Vector3d::Zero();
-  for (std::size_t i = 0; i < areas.Centres.size(); ++i)
-  {
-    moments += areas.Weights[i] * (frame * (areas.Centres[i] - middle)).cwiseAbs2();
-  }
-  std::sort(moments.begin(), moments.end());
-  const double gap = std::min(moments[1] - moments[0], moments[2] - moments[1]);
-  return gap > LeastGap * moments[2] ? Matrix3d(Oblique() * frame) : Matrix3d::Identity();
+  const std::optional<OwnAxes> own = FindOwnAxes(areas.Weights, areas.Centres);
+  return !own                ? Matrix3d(Matrix3d::Identity())
+         : own->ArePrincipal ? Matrix3d(Oblique() * own->Frame)
+                             : own->Frame;
 }
 
 // `count` numbers, in order.
@@ -108,7 +102,7 @@ SurfacePose::SurfacePose(const SurfaceMesh& surface)
 {
   const Areas areas(surface);
   this->Middle = areas.Middle();
-  this->Frame = FrameOf(areas, this->Middle);
+  this->Frame = FrameOf(areas);
   double size = 0.0;
   for (const Vector3d& point : surface.Points)
   {

@@ -5,10 +5,12 @@
  *
  * What is searched on a surface depends, through ties and rounding, on how it lies in space and on
  * the order of its triangles: on a bent and branched one quite other cubes may come out. So it is
- * searched where its principal axes are the axes of space, with coordinates rounded to a millionth
- * of its size or less and points and triangles sorted by them, which is the same surface to the
- * last bit whatever rigid motion and whatever order it came in. Where principal axes are not
- * unique, as of a ball or a cube, it keeps its directions.
+ * searched where its own axes (OwnAxes.h) are the axes of space or, where moments tell principal
+ * axes apart, askew to these, with coordinates rounded to a millionth of its size or less and
+ * points and triangles sorted by them, which is the same surface to the last bit whatever rigid
+ * motion and whatever order it came in. Where it has no axes of its own, as a ball or a round
+ * cylinder, it keeps its directions; where it has symmetries, it may lie in another one of the
+ * poses in which it is the same.
  */
 #ifndef trivariate_PosedSurface_h
 #define trivariate_PosedSurface_h

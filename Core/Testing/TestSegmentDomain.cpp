@@ -237,49 +237,6 @@ TEST(SegmentDomain, MovesWithTheSurface)
   }
 }
 
-// To the last bit where principal axes are unique, on a shape for which several domains are about
-// as good, and for shells too.
-TEST(SegmentDomain, IsTheSameInAnyPoseAndOrder)
-{
-  const SurfaceMesh branched = Moved(Icosphere(4),
-    [](const Vector3d& p)
-    {
-      double radius = 6.0;
-      for (const Vector3d& limb :
-        { Vector3d(0.6, 0.64, 0.48), Vector3d(-0.8, 0.0, 0.6), Vector3d(0.28, -0.96, 0.0) })
-      {
-        radius += (7.0 + 3.0 * limb.x()) * std::exp(-9.0 * (p - limb).squaredNorm());
-      }
-      return Vector3d(radius * p.x(), radius * p.y(), 1.2 * radius * p.z());
-    });
-  const SurfaceMesh core = Moved(Icosphere(3),
-    [](const Vector3d& p) { return Vector3d(3.0 * p.x(), 3.2 * p.y(), 3.5 * p.z()); });
-  const SegmentDomain still = FindDomain(branched, DomainOptions(), Execution());
-  const ShellDomains shell = FindShell(branched, core, DomainOptions(), Execution());
-  for (int seed = 1; seed < 4; ++seed)
-  {
-    const auto move = [seed](const SurfaceMesh& mesh)
-    { return Turned(Shuffled(mesh, seed), seed); };
-    const SurfaceMesh turnedCore = move(core);
-    const SurfaceMesh turned = move(branched);
-    const SegmentDomain moved = FindDomain(turned, DomainOptions(), Execution());
-    EXPECT_EQ(moved.Cubes.Cubes, still.Cubes.Cubes);
-    EXPECT_EQ(moved.Layout.Patches, still.Layout.Patches);
-    EXPECT_NEAR(moved.Alignment, still.Alignment, 1e-9);
-    for (Index corner = 0; corner < still.Cubes.NumberOfCorners; ++corner)
-    {
-      for (Index other = 0; other < corner; ++other)
-      {
-        EXPECT_NEAR((moved.Places[corner] - moved.Places[other]).norm(),
-          (still.Places[corner] - still.Places[other]).norm(), 1e-9);
-      }
-    }
-    const ShellDomains movedShell = FindShell(turned, turnedCore, DomainOptions(), Execution());
-    EXPECT_NEAR(movedShell.Outer.Alignment, shell.Outer.Alignment, 1e-9);
-    EXPECT_NEAR(movedShell.Inner.Alignment, shell.Inner.Alignment, 1e-9);
-  }
-}
-
 TEST(SegmentDomain, CutsACubeIntoAnyChain)
 {
   const SurfaceMesh box = Moved(SurfaceOf(Polycube::FromGrid({ 1, 1, 1 }), 7),
