@@ -103,6 +103,14 @@ struct vtkPolycubeDomain::Internals
     return set;
   }
 
+  // Those of the guess, which searches for them the first time.
+  std::vector<Eigen::Vector3d> FindStartCorners(vtkPolycubeDomain* self)
+  {
+    const Polycube shape =
+      this->Guess->Shape(self->NumberOfCubes, self->SwitchedOffCubes, SMPExecution(self, 0.0, 0.5));
+    return this->Guess->Corners(shape, SMPExecution(self, 0.5, 1.0));
+  }
+
   std::unique_ptr<CornerGuess> Guess;
   vtkNew<vtkDoubleArray> StartCorners;
 };
@@ -175,18 +183,20 @@ vtkDoubleArray* vtkPolycubeDomain::GetStartCorners()
   {
     try
     {
-      CornerGuess& guess = *this->Internal->Guess;
-      Execution execution;
-      execution.ParallelFor = SMPParallelFor;
-      const Polycube shape = guess.Shape(this->NumberOfCubes, this->SwitchedOffCubes, execution);
-      for (const Eigen::Vector3d& corner : guess.Corners(shape, execution))
+      for (const Eigen::Vector3d& corner : this->Internal->FindStartCorners(this))
       {
         corners->InsertNextTuple(corner.data());
       }
     }
+    catch (const Aborted&)
+    {
+      this->UpdateProgress(1.0);
+      this->AbortExecute = 0; // obeyed: the next update is not to stop
+      this->SetAbortOutput(false);
+    }
     catch (const std::exception&)
     {
-      corners->SetNumberOfTuples(0); // the next update tells what is wrong with the shape
+      // The next update tells what is wrong with the shape.
     }
   }
   if (corners->GetNumberOfTuples() == 0)

@@ -180,7 +180,10 @@ public:
   /**
    * Corners to start from, after an update: of the shape of manual mode, on the surface, as they
    * were found automatically or, for a shape of another kind, spread over the cube that was. A
-   * single one at the origin where there is not just one segment, or it has none.
+   * single one at the origin where there is not just one segment, or it has none, or the update was
+   * stopped. The first call after manual updates may search for them, with progress, which
+   * AbortExecute stops as it does an update: then there is a single one too, and the next call
+   * searches again.
    */
   vtkDoubleArray* GetStartCorners();
 

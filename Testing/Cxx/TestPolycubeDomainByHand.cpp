@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DomainChecks.h"
+#include "Stop.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkPoints.h"
@@ -179,6 +180,36 @@ TEST(PolycubeDomain, LaysOutAnLByHand)
     area += vtkMath::Norm(normal);
   }
   EXPECT_GT(aligned / area, 0.95);
+}
+
+//------------------------------------------------------------------------------
+// Corners that are given need no search, so that it is begun when start corners are asked for.
+TEST(PolycubeDomain, StopsTheSearchForStartCorners)
+{
+  const vtkNew<vtkPolyData> surface = Ball();
+  vtkNew<vtkPolycubeDomain> domain;
+  domain->SetInputData(surface);
+  domain->Update();
+  const std::vector<Place> corners = StartCornersOf(domain);
+  vtkNew<vtkPolycubeDomain> manual;
+  manual->SetInputData(surface);
+  manual->SetModeToManual();
+  manual->SetNumberOfCubes(1, 1, 1);
+  SetCorners(manual, corners);
+  manual->Update();
+  const vtkIdType triangles = manual->GetPatches()->GetNumberOfCells();
+  {
+    Stop stop(manual, 0.01);
+    EXPECT_EQ(StartCornersOf(manual), (std::vector<Place>{ Place{ 0.0, 0.0, 0.0 } }));
+    EXPECT_TRUE(stop.WasAsked());
+    EXPECT_LT(stop.Where() - stop.AskedAt(), 0.1);
+    EXPECT_EQ(manual->GetAbortExecute(), 0);
+  }
+  EXPECT_EQ(manual->GetPatches()->GetNumberOfCells(), triangles);
+  manual->Modified();
+  manual->Update();
+  EXPECT_EQ(manual->GetPatches()->GetNumberOfCells(), triangles);
+  EXPECT_EQ(StartCornersOf(manual), corners);
 }
 
 //------------------------------------------------------------------------------
