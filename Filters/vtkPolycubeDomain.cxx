@@ -36,6 +36,10 @@ vtkCxxSetObjectMacro(vtkPolycubeDomain, Controller, vtkMultiProcessController);
 
 namespace
 {
+constexpr const char* OwnCornersOnly =
+  " Here a process was asked for all, and knows only the corners that it has itself: update the "
+  "filter on all processes first.";
+
 std::vector<Eigen::Vector3d> PointsOf(const std::vector<double>& coordinates)
 {
   std::vector<Eigen::Vector3d> points;
@@ -289,9 +293,15 @@ int vtkPolycubeDomain::RequestData(
       {
         this->MakeDomains(surface, points ? corners.Get() : nullptr, outputVector);
       }
+      catch (const std::invalid_argument& error)
+      {
+        const bool ownOnly =
+          points && !gathering && this->Controller && this->Controller->GetNumberOfProcesses() > 1;
+        throw std::invalid_argument(error.what() + std::string(ownOnly ? OwnCornersOnly : ""));
+      }
       catch (const Aborted&)
       {
-        this->Internal->Guess.reset(); // or GetStartCorners() would search, and not be stopped
+        this->Internal->Guess.reset(); // or GetStartCorners() would search in place of it
         throw;
       }
       return 1;

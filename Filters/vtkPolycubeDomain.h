@@ -78,7 +78,9 @@
  *
  * @par Distributed data
  * Under several processes the pieces are gathered to process 0 with a warning; it gives the same
- * result as one process would, the others give empty outputs.
+ * result as one process would, the others give empty outputs. Corners are those of all processes,
+ * in their order, or of one where all have the same; where the filter is not updated on all of
+ * them, of the process that is asked, which is an error if they are too few.
  *
  * @par Errors
  * A surface that is empty, not of triangles, open or not two-manifold; a segment that is not there,

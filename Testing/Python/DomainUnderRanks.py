@@ -45,7 +45,19 @@ for i in range(8):
     points.InsertNextPoint(*(3.6 if i >> a & 1 else -3.2 for a in range(3)))
 self.GetPolyDataOutput().SetPoints(points)
 """)
-for name, corners in (("Shared", shared),):
+
+# Corners of which every rank has some, in order.
+spread = ProgrammableSource(OutputDataSetType="vtkPolyData", Script="""
+import vtk
+control = vtk.vtkMultiProcessController.GetGlobalController()
+ranks, rank = control.GetNumberOfProcesses(), control.GetLocalProcessId()
+points = vtk.vtkPoints()
+for i in range(8):
+    if i * ranks // 8 == rank:
+        points.InsertNextPoint(*(3.6 if i >> a & 1 else -3.2 for a in range(3)))
+self.GetPolyDataOutput().SetPoints(points)
+""")
+for name, corners in (("Shared", shared), ("Spread", spread)):
     picked = PolycubeDomain(Input=surface, Corners=corners, Mode="Manual", Segments=[2],
                             NumberOfCubes=[1, 1, 1])
     picked.UpdatePipeline()
@@ -54,6 +66,11 @@ for name, corners in (("Shared", shared),):
     arrays[f"{name}Corners"] = vtk_to_numpy(data.GetPoints().GetData())
     arrays[f"{name}Snaps"] = vtk_to_numpy(data.GetPointData().GetArray("SnapDistance"))
 numpy.savez(sys.argv[1], **arrays)
+
+# Without an update of all ranks, each makes all from the corners that it has: those are too few.
+picked = PolycubeDomain(Input=surface, Corners=spread, Mode="Manual", Segments=[2],
+                        NumberOfCubes=[1, 1, 1])
+servermanager.Fetch(PassArrays(Input=OutputPort(picked, 1), PointDataArrays=["SnapDistance"]))
 
 domain.Segments = [9]
 domain.UpdatePipeline()  # one error, and no rank waits for another
