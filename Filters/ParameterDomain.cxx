@@ -27,6 +27,7 @@ constexpr double ThinPart = 0.05; // of the work on a segment: to look for thin 
 
 // Twice what solving takes (vtkVolumeParameterization), for it is not the only one.
 constexpr double BytesPerFineVoxel = 320.0;
+constexpr double BytesPerCell = 520.0; // of a block mesh while it is repaired
 
 BlockComplex ComplexOf(const DomainInput& input)
 {
@@ -214,11 +215,17 @@ ParameterDomain ParameterizeDomain(const ImageSamples& samples, vtkPolyData* pat
   ParameterDomain domain{ ReadDomain(patches, polycube), {}, {}, {}, {}, {}, {}, {}, {}, {}, {},
     {} };
   domain.Complex = ComplexOf(domain.Input);
-  SolveSegments(samples, patches, space, settings, domain, execution.Part(0.0, 0.3));
-  CollectSolved(samples, domain);
   BlockMeshOptions options;
   options.CellLength = settings.CellLength * std::cbrt(space.Spacing.prod());
   options.Freedom = FreedomOfNodes * space.Spacing.minCoeff();
+  const std::string lack = MemoryFault("The block mesh (a larger CellLength needs less)",
+    BytesPerCell * CountCells(SizesOf(domain.Input.Domain, options)));
+  if (!lack.empty())
+  {
+    throw std::invalid_argument(lack);
+  }
+  SolveSegments(samples, patches, space, settings, domain, execution.Part(0.0, 0.3));
+  CollectSolved(samples, domain);
   domain.Mesh =
     MakeBlockMesh(domain.Input.Domain, options, execution.Part(0.3, 0.9), &domain.Report);
   LocateVoxels(samples, space, domain, execution.Part(0.9, 1.0));

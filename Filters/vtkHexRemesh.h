@@ -17,9 +17,10 @@
  *
  * @par Input
  * Port 0: vtkImageData, whose point arrays are sampled at the nodes (trilinear; the labels Segment,
- * frames and parameters are left out, labels of other names are taken for numbers). Port 1: the patches and port 2: the polycube, outputs 0 and 1 of
- * vtkPolycubeDomain. Port 3 (optional): vtkPartitionedDataSetCollection, block meshes of this
- * polycube, as this filter or vtkVolumeParameterization writes them.
+ * frames and parameters are left out, labels of other names are taken for numbers). Port 1: the
+ * patches and port 2: the polycube, outputs 0 and 1 of vtkPolycubeDomain. Port 3 (optional):
+ * vtkPartitionedDataSetCollection, block meshes of this polycube, as this filter or
+ * vtkVolumeParameterization writes them.
  *
  * @par Output
  * Port 0: vtkPartitionedDataSetCollection with one vtkStructuredGrid for each block.

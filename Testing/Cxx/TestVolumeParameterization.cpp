@@ -250,6 +250,12 @@ TEST(VolumeParameterization, SaysWhatIsWrong)
   chain.Parameters->SetInputData(elsewhere);
   expect("it is not the surface of this segment");
 
+  vtkNew<vtkImageData> fine; // a bar of a hundred thousand voxels along each axis
+  fine->DeepCopy(chain.Field->GetOutput());
+  fine->SetSpacing(1e-4, 1e-4, 1e-4);
+  chain.Parameters->SetInputData(fine);
+  expect("The block mesh (a larger CellLength needs less) would need ");
+
   vtkNew<vtkImageData> still;
   still->DeepCopy(chain.Field->GetOutput());
   still->GetPointData()->GetArray("FrameV")->Fill(0.0);
