@@ -113,7 +113,7 @@ FilledDomains FillAll(vtkImageData* image, vtkPolyData* patches, vtkUnstructured
   hexahedra->SetInputDataObject(0, image);
   hexahedra->SetInputDataObject(1, patches);
   hexahedra->SetInputDataObject(2, polycubes);
-  ChainStep(hexahedra, chain, at(Parameterized), to).Run();
+  ChainStep(hexahedra, chain, at(Parameterized), to).RunTelling();
   domains.Hexahedra = hexahedra->GetHexahedra();
   return domains;
 }

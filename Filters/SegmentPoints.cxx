@@ -156,10 +156,10 @@ double ReachIn(vtkDataSet* points)
 }
 
 //------------------------------------------------------------------------------
-bool AreOfSegments(const TSplineModel& model)
+bool GoBySegments(const TSplineModel& model, bool labelled)
 {
   const std::vector<std::int32_t> segments = SegmentsOf(model);
-  return segments.size() > 1 || segments.front() != 0;
+  return segments.size() > 1 || (labelled && segments.front() != 0);
 }
 
 //------------------------------------------------------------------------------

@@ -21,9 +21,10 @@ constexpr double LabelReach = 1.5; ///< in voxels, of the longest side
 /// That of an image in space; 0 of other points.
 double ReachIn(vtkDataSet* points);
 
-/// Whether splines stand for the points with their label: several, or one that was fitted over the
-/// domain of a segment. That of a fit without domain has segment 0 and stands for all points.
-bool AreOfSegments(const TSplineModel& model);
+/// Whether splines stand for the points of their segments alone: several do, and where points have
+/// labels also one of a segment that is not 0, which it was fitted over the domain of. A spline of
+/// segment 0, as of a fit without domain, stands for all points.
+bool GoBySegments(const TSplineModel& model, bool labelled);
 
 /**
  * As FillPoints, but every point by the spline of its own segment, which `labels` tells; without

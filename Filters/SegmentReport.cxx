@@ -84,6 +84,19 @@ double DeflatedBytes(
 }
 
 //------------------------------------------------------------------------------
+// Some of the splines' segments have to occur among the labels.
+void CheckPresent(const std::vector<std::int32_t>& segments,
+  const std::map<int, std::vector<Index>>& voxels, bool bySegment)
+{
+  const auto occurs = [&voxels](std::int32_t segment) { return voxels.count(segment) > 0; };
+  if (bySegment && std::none_of(segments.begin(), segments.end(), occurs))
+  {
+    throw std::invalid_argument("No voxel has the label " + std::to_string(segments.front()) +
+                                " of the T-spline; choose the labels that it was fitted with.");
+  }
+}
+
+//------------------------------------------------------------------------------
 // The attribute at each voxel by the inverse map.
 struct RoundTrip
 {
@@ -92,15 +105,15 @@ struct RoundTrip
   vtkDataArray* Found;
 };
 
-RoundTrip EvaluateImage(
-  const ReportInput& input, const TSplineModel& model, const Execution& execution)
+RoundTrip EvaluateImage(const ReportInput& input, const TSplineModel& model, bool bySegment,
+  const Execution& execution)
 {
   RoundTrip trip;
   trip.Image.TakeReference(input.Lattice->NewInstance());
   trip.Image->CopyStructure(input.Lattice);
   const BezierMesh mesh(model.Spline, execution.Part(0.0, 0.1));
   const TSplineView view{ model, mesh, false, false };
-  if (input.Labels >= 0 && AreOfSegments(model))
+  if (bySegment)
   {
     vtkNew<vtkIntArray> labels;
     labels->SetName("Segment");
@@ -205,10 +218,10 @@ Errors Compare(const ReportInput& input, const RoundTrip& trip, double range, bo
 }
 
 // Over what the spline of a segment was fitted, as the rounds tell, or else the spline.
-std::string DomainOf(const SplineFacts& facts, bool apart, const LastRound& last)
+std::string DomainOf(const SplineFacts& facts, bool bySegment, const LastRound& last)
 {
   return std::isnan(facts.ControlPoints) ? "None"
-         : facts.Affine                  ? apart ? "SegmentBox" : "ImageBox"
+         : facts.Affine                  ? bySegment ? "SegmentBox" : "ImageBox"
          : last.Domain.empty()           ? "Cubes"
                                          : last.Domain;
 }
@@ -269,7 +282,6 @@ std::vector<ReportRow> MakeReport(const ReportInput& input, const Execution& exe
 {
   const std::map<int, std::vector<Index>> voxels = VoxelsOfSegments(input);
   const TSplineModel model = AttributePart(input.Model, input.Attribute);
-  const RoundTrip trip = EvaluateImage(input, model, execution.Part(0.0, 0.4));
   const double* values = input.Image.Values.data();
   const auto [low, high] = std::minmax_element(values, values + input.Image.Count());
   const double range = *high > *low ? *high - *low : 1.0;
@@ -281,7 +293,9 @@ std::vector<ReportRow> MakeReport(const ReportInput& input, const Execution& exe
   const double scalarBytes = vtkDataArray::GetDataTypeSize(input.ScalarType);
 
   const std::vector<std::int32_t> segments = SegmentsOf(model);
-  const bool apart = input.Labels >= 0 && AreOfSegments(model); // segments have rows apart
+  const bool bySegment = GoBySegments(model, input.Labels >= 0);
+  CheckPresent(segments, voxels, bySegment);
+  const RoundTrip trip = EvaluateImage(input, model, bySegment, execution.Part(0.0, 0.4));
   std::vector<ReportRow> rows;
   Errors total;
   SplineFacts totalFacts;
@@ -298,27 +312,27 @@ std::vector<ReportRow> MakeReport(const ReportInput& input, const Execution& exe
     const double raw = scalarBytes * static_cast<double>(own.size());
     const double deflated = DeflatedBytes(values, own, input.ScalarType, part.Part(0.0, 0.2));
     const bool exists =
-      !apart || std::find(segments.begin(), segments.end(), segment) != segments.end();
+      !bySegment || std::find(segments.begin(), segments.end(), segment) != segments.end();
     // One spline for all segments is told of once: with the first, and then not in its row.
     SplineFacts facts;
     Errors errors;
     std::string domain = "None";
     if (exists)
     {
-      const TSplineModel fitted = apart ? SegmentPart(model, segment) : model;
+      const TSplineModel fitted = bySegment ? SegmentPart(model, segment) : model;
       const BezierMesh mesh(fitted.Spline, part.Part(0.2, 0.25));
-      const LastRound last = LastRoundOf(input.Rounds, segment, component);
-      if (apart || rows.empty())
+      const int whose = bySegment ? segment : segments.front();
+      const LastRound last = LastRoundOf(input.Rounds, whose, component);
+      if (bySegment || rows.empty())
       {
-        const TSplineModel stored = apart ? SegmentPart(input.Model, segment) : input.Model;
-        const int whose = apart ? segment : segments.front();
+        const TSplineModel stored = bySegment ? SegmentPart(input.Model, segment) : input.Model;
         facts = DescribeSpline(stored, mesh, whose, input, part.Part(0.25, 0.8));
         facts.GradientJump =
           facts.Affine ? 0.0 : LastRoundOf(input.Rounds, whose, component).GradientJump / range;
         totalFacts.Add(facts);
       }
-      const SplineFacts& described = apart ? facts : totalFacts;
-      domain = DomainOf(described, apart, last);
+      const SplineFacts& described = bySegment ? facts : totalFacts;
+      domain = DomainOf(described, bySegment, last);
       // A fit over a domain moves the parameters of voxels: its own word comes before the array's.
       const bool isTold = IsOverCubes(domain) && !std::isnan(last.Rms);
       const std::vector<double> ownValues =
@@ -339,7 +353,7 @@ std::vector<ReportRow> MakeReport(const ReportInput& input, const Execution& exe
     total.Add(errors);
     totalRaw += raw;
     totalDeflated += deflated;
-    const bool isOwn = apart || voxels.size() == 1;
+    const bool isOwn = bySegment || voxels.size() == 1;
     std::set<int> cubed;
     if (IsOverCubes(domain))
     {
@@ -352,7 +366,7 @@ std::vector<ReportRow> MakeReport(const ReportInput& input, const Execution& exe
     rows.back().Domain = domain;
   }
   double labelBytes = 0.0;
-  if (apart)
+  if (bySegment)
   {
     totalFacts.Bytes = StoredBytes(input.Model, execution.Part(1.0, 1.0));
     const double* labels = values + input.Labels * input.Image.Count();

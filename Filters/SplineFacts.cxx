@@ -82,13 +82,13 @@ LastRound LastRoundOverDomain(vtkFieldData* field, int segment, int component)
   vtkDataArray* jump = field->GetArray("GradientJump");
   vtkAbstractArray* domains = field->GetAbstractArray("FittedDomain");
   const bool isTold =
-    segments && errors && ranges && jump && domains && component < ranges->GetNumberOfComponents();
+    segments && errors && ranges && jump && component < ranges->GetNumberOfComponents();
   for (vtkIdType i = 0; isTold && i < segments->GetNumberOfTuples(); ++i)
   {
     if (static_cast<int>(segments->GetTuple1(i)) == segment)
     {
       const double range = ranges->GetComponent(0, component);
-      last.Domain = domains->GetVariantValue(i).ToString();
+      last.Domain = domains ? domains->GetVariantValue(i).ToString() : "";
       last.Rms = errors->GetTuple1(i) / 100.0 * range;
       last.GradientJump = jump->GetComponent(0, 0) * range;
     }

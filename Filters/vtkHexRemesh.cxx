@@ -129,20 +129,25 @@ void CheckImage(vtkImageData* image, vtkPolyData* patches)
     image->TransformPhysicalPointToContinuousIndex(x, index);
     for (int a = 0; a < 3; ++a)
     {
-      outside = std::max({ outside, extent[2 * a] - index[a], index[a] - extent[2 * a + 1] });
+      const double beyond = std::max(extent[2 * a] - index[a], index[a] - extent[2 * a + 1]);
+      if (std::isnan(beyond))
+      {
+        throw std::invalid_argument("A point of the patches is not finite.");
+      }
+      outside = std::max(beyond, outside);
     }
   }
-  if (!(outside <= FarthestOutside))
+  if (outside > FarthestOutside)
   {
     std::ostringstream fault;
     fault << "The patches reach " << outside
-          << " voxels out of the image: it is not the one that they are of.";
+          << " voxels out of the image: it is not the one that they are of. Choose that one.";
     throw std::invalid_argument(fault.str());
   }
 }
 
 // A sentence where arrays at the nodes are not finite, or none.
-std::string WarningOf(vtkPointData* attributes)
+std::string NotFiniteIn(vtkPointData* attributes)
 {
   std::ostringstream warning;
   for (int a = 0; a < attributes->GetNumberOfArrays(); ++a)
@@ -218,17 +223,17 @@ void vtkHexRemesh::Remesh(vtkInformationVector** inputVector, vtkInformationVect
   }
   const double farthest =
     std::max(report.Distances.ToFaces.Largest, report.Distances.FromFaces.Largest);
-  if (this->CellsPerBlock == 0 && farthest > options.CellLength)
+  if (this->CellsPerBlock == 0 && farthest > std::max(options.CellLength, voxel))
   {
     vtkWarningMacro("The cells are up to "
       << farthest << " from the surface, more than they are long (" << options.CellLength
       << "), and may not hold its volume: the domain does not fit limbs or pits of the segment "
-         "there. Try more cubes or other corners; PatchDistance and FaceDistance tell the means.");
+         "there. Try more cubes or other corners; PatchDistance and FaceDistance tell more.");
   }
 
   vtkNew<vtkPointData> attributes;
   SampleImage(image, mesh.Places, attributes);
-  const std::string warning = WarningOf(attributes);
+  const std::string warning = NotFiniteIn(attributes);
   if (!warning.empty())
   {
     vtkWarningMacro(<< warning);

@@ -48,8 +48,8 @@
  * @par Errors
  * No polycube, or one that the patches do not fit; an image without points, or one that the patches
  * reach out of by more than a voxel; more cells than MostCells. Warnings say how many cells are
- * inverted, if any are left, how far they are from the surface, if that is more than EdgeLength,
- * and at how many nodes an array is not finite.
+ * inverted, if any are left, how far they are from the surface, if that is more than they are long
+ * (and a voxel; not with CellsPerBlock), and at how many nodes an array is not finite.
  *
  * @par Reference
  * V. Garanzha, I. Kaporin, L. Kudryavtseva, F. Protais, N. Ray, D. Sokolov. Foldover-free maps in

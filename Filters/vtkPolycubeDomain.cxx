@@ -295,8 +295,8 @@ int vtkPolycubeDomain::RequestData(
       }
       catch (const std::invalid_argument& error)
       {
-        const bool ownOnly =
-          points && !gathering && this->Controller && this->Controller->GetNumberOfProcesses() > 1;
+        const bool ownOnly = this->Mode == MANUAL && points && !gathering && this->Controller &&
+                             this->Controller->GetNumberOfProcesses() > 1;
         throw std::invalid_argument(error.what() + std::string(ownOnly ? OwnCornersOnly : ""));
       }
       catch (const Aborted&)

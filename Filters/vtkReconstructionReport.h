@@ -65,7 +65,8 @@
  * - Seconds: of port 3;
  * - Domain (string), over what the segment was fitted: ImageBox (one spline for all), SegmentBox,
  *   Cubes, LayeredCubes (cubes with blocks along the surface; only the rounds tell, without them
- *   they are Cubes), None (the spline has no such segment); Mixed in the last row where segments differ.
+ *   they are Cubes), None (the spline has no such segment); Mixed in the last row where segments
+ *   differ.
  * Where one spline stands for several segments, what else concerns the spline is in the last row
  * only.
  *
@@ -81,7 +82,8 @@
  *
  * @par Errors
  * An image without points or without the chosen array, with more than one component, NaN or
- * infinity, labels that are no whole numbers or, for splines of several segments, none; a grid
+ * infinity, labels that are no whole numbers or of none of the
+ * spline's segments or, for splines of several, none; a grid
  * that is no T-spline or has no attribute of that name; too little memory.
  *
  * @sa vtkTSplineFit vtkTSplineSource vtkTSplineReconstruction

@@ -10,7 +10,8 @@
  * image as its second input, which tells whose spline counts where).
  *
  * The chain is that of vtkTextureSegmentation, vtkSegmentTopology, vtkSegmentBoundary and
- * vtkTSplineFit, each with its defaults. A segment is fitted over its bounding box, the voxels of
+ * vtkTSplineFit, each with its defaults (texture windows as large as fit into images of three or
+ * four voxels; of two it needs labels). A segment is fitted over its bounding box, the voxels of
  * other segments masked. With Domain AUTOMATIC every segment for which vtkPolycubeDomain finds a
  * domain is fitted again, over its cubes with layers and without (vtkFrameField,
  * vtkVolumeParameterization), with as many control points, and what is most accurate in the round
@@ -21,8 +22,8 @@
  * mesh or the spline has folds, each is fitted by itself. Segments for which one of these filters
  * fails are left out of the domains, and the others are tried again. Then one spline is fitted over
  * the whole image, and if it is more accurate than all segments together (or, where both meet the
- * tolerance, has fewer control points), it is the result, and a warning says so. With Domain GIVEN
- * the segments with a domain in the second input are fitted over that. A warning tells why a
+ * tolerance, has fewer control points), it is the result, as the Remark of the rounds says. With
+ * Domain GIVEN the segments with a domain in the second input are fitted over that. A warning tells why a
  * segment with a domain stays with its box, or with cubes without layers: half or more of the
  * blocks that were found are inverted between their corners, folds, voxels that are missed. Up to 2
  * % of a segment's voxels may be missed, since the spline does not pass through them or they have
@@ -52,7 +53,8 @@
  * the segment itself; NaN with several attributes), GradientJump (double, root mean square, of
  * vtkTSplineFit) and Domain (string: SegmentBox, Cubes or LayeredCubes). Field data: Step (string)
  * and StepSeconds (double), where the time went: the names of the filters without "vtk", FitOverBox
- * and FitOverCubes; Remark (string) where AUTOMATIC takes one spline over the whole image. Unless Domain is BOX also:
+ * and FitOverCubes; Remark (string) where AUTOMATIC takes one spline over the whole image. Unless
+ * Domain is BOX also:
  * Port 2: the image with the point array Segment. Port 3: vtkPolyData, the surfaces of the segments
  * of vtkSegmentBoundary.
  * With Domain AUTOMATIC or GIVEN also, of those segments that have a domain:

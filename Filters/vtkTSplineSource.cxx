@@ -182,11 +182,11 @@ void vtkTSplineSource::Evaluate(
   const auto fill = [&view, pointsInfo, output](const trivariate::Execution& part)
   {
     vtkDataSet* points = vtkDataSet::SafeDownCast(output);
-    if (trivariate::AreOfSegments(view.Model))
+    vtkDataSet* labelled = pointsInfo ? vtkDataSet::GetData(pointsInfo) : nullptr;
+    vtkDataArray* labels = labelled ? labelled->GetPointData()->GetArray("Segment") : nullptr;
+    if (trivariate::GoBySegments(view.Model, labels != nullptr))
     {
-      vtkDataSet* labelled = pointsInfo ? vtkDataSet::GetData(pointsInfo) : nullptr;
-      trivariate::FillPointsOfSegments(
-        view, labelled ? labelled->GetPointData()->GetArray("Segment") : nullptr, points, part);
+      trivariate::FillPointsOfSegments(view, labels, points, part);
     }
     else
     {

@@ -64,7 +64,7 @@
  * bit by bit.
  *
  * @par Cost
- * Solving: 20 to 80 iterations for each parameter whatever the size; a segment that fills 256^3, 23
+ * Solving: 20 to 81 iterations for each parameter whatever the size; a segment that fills 256^3, 23
  * s for each on one core. Memory: 160 bytes a voxel of the box around the segment, and 105 a voxel
  * of the image; with Epsilon below 1 another 220. Repair: see Core/Parameter/BlockRepair.h.
  * Threaded with vtkSMPTools; the result does not depend on the number of threads.

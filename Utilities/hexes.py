@@ -8,7 +8,8 @@
     python3 Utilities/hexes.py FOLDER tooth=105:4 ...
 
 Each row is a volume, its threshold and the wanted edge of a cell in space, on the domain that
-domains.py saved in FOLDER; the mesh goes there too. The volume of the cells is compared with that of
+domains.py saved in FOLDER; the mesh goes there too. Where there are several segments each has a row
+below. The volume of the cells is compared with that of
 the segments' surface. Distances, in voxels, are the farthest from points of the surface to the faces
 of cells, with the 99th percentile, and from points of those faces (4 x 4 of each) to the surface.
 Seconds are those of the processor.
@@ -24,18 +25,9 @@ from vtkmodules.vtkFiltersCore import (vtkAppendPolyData, vtkMassProperties, vtk
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkFiltersModeling import (vtkHausdorffDistancePointSetFilter,
                                            vtkLinearSubdivisionFilter)
-from vtkmodules.vtkFiltersVerdict import vtkMeshQuality
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 import meshes
-
-
-def volumes_of(cells):
-    quality = vtkMeshQuality()
-    quality.SetInputData(cells)
-    quality.SetHexQualityMeasureToVolume()
-    quality.Update()
-    return vtk_to_numpy(quality.GetOutput().GetCellData().GetArray("Quality"))
 
 
 def part_of(data, segment):
@@ -92,7 +84,7 @@ def volume_inside(patches):
 
 def print_row(name, edge, inverted, patches, mesh, seconds):
     quality = vtk_to_numpy(mesh.GetCellData().GetArray("ScaledJacobian"))
-    volumes = volumes_of(mesh)
+    volumes = meshes.volumes_of(mesh)
     out, back = distances(patches, mesh)
     low, high = numpy.percentile(volumes, [1, 99]) / volumes.mean()
     print(f"| {name} | {edge} | {mesh.GetNumberOfCells():,} | {inverted} "

@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Domains that domains.py saved, and meshes of hexahedra in them."""
 import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkFiltersVerdict import vtkMeshQuality
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
 
 from trivariate import vtkHexRemesh
@@ -26,8 +28,17 @@ def read_domain(folder, name):
             read(vtkXMLUnstructuredGridReader(), folder / f"{stem(name)}_domain.vtu"))
 
 
+def volumes_of(cells):
+    """Of hexahedra."""
+    quality = vtkMeshQuality()
+    quality.SetInputData(cells)
+    quality.SetHexQualityMeasureToVolume()
+    quality.Update()
+    return vtk_to_numpy(quality.GetOutput().GetCellData().GetArray("Quality"))
+
+
 def image_around(surface):
-    """A grid of unit voxels: Hex Remesh takes no more of it than its points' arrays."""
+    """A grid of unit voxels: Hex Remesh takes its spacing and its points' arrays."""
     bounds = numpy.array(surface.GetBounds()).reshape(3, 2)
     image = vtkImageData()
     image.SetOrigin(*numpy.floor(bounds[:, 0]))

@@ -15,9 +15,9 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkCommonCore import vtkSMPTools
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkUnstructuredGrid
-from vtkmodules.vtkFiltersVerdict import vtkMeshQuality
 
 import given_domain
+import meshes
 import picture
 import trivariate
 
@@ -192,15 +192,6 @@ def not_empty(proxy, port):
     return output if output_of(output).GetNumberOfPoints() > 0 else None
 
 
-def volume_of(mesh):
-    """The sum over all hexahedra."""
-    quality = vtkMeshQuality()
-    quality.SetInputData(mesh)
-    quality.SetHexQualityMeasureToVolume()
-    quality.Update()
-    return float(vtk_to_numpy(quality.GetOutput().GetCellData().GetArray("Quality")).sum())
-
-
 class Segments:
     """What the steps beside the fit make of the volume: each an output of a filter, or None."""
     labelled = surfaces = whole = patches = polycubes = fields = hexahedra = None
@@ -279,7 +270,7 @@ class Segments:
                 "hexahedra": {"cells": mesh.GetNumberOfCells(),
                               "inverted_cells": {"before": int(before), "after": int(after)},
                               "min_scaled_jacobian": least, "mean_scaled_jacobian": mean,
-                              "volume_ratio": volume_of(mesh) / (counts * voxel),
+                              "volume_ratio": float(meshes.volumes_of(mesh).sum() / (counts * voxel)),
                               "distance_voxels": farthest}}
 
     def save(self, path):

@@ -165,12 +165,14 @@ BlockMesh RefineBlockMesh(const BlockDomain& domain, const BlockMesh& mesh,
   const BlockMeshOptions& options, const Execution& execution, BlockMeshReport* report)
 {
   BlockMesh refined = Resampled(mesh, domain.Blocks, SizesOf(domain, options));
-  // The borders that hold nodes are those that held them in the mesh.
+  // The borders that hold nodes are those that held them in the mesh, if it was made at its size.
   const DomainSurface surface(domain, MeanLength(domain, mesh.Sizes));
   BlockMesh start = mesh;
   const SlidingNodes slid(surface, start, options.Freedom, SlidingNodes::WhereTheySlid);
   SlidingNodes sliding(refined, start, slid);
-  BoundaryFit fit(refined, BoundaryFit(surface, start));
+  BoundaryFit fitted(surface, start);
+  fitted.Assign(start.Places, execution);
+  BoundaryFit fit(refined, fitted);
   const CellQuality before = QualityOf(refined, execution);
   RepairOptions repair = options.Repair;
   repair.MostRounds = 1; // what folds stayed in the mesh would stay again

@@ -84,9 +84,12 @@ SurfaceFoot DomainSurface::NearestOnPieceOf(Index patch, const Vector3d& place) 
   for (std::size_t other = 0; other < this->Patches.size(); ++other)
   {
     const Index p = static_cast<Index>(other);
+    if (p == patch || this->PieceOfPatch(p) != this->PieceOfPatch(patch))
+    {
+      continue;
+    }
     const SurfaceFoot foot = this->NearestOnPatch(p, place);
-    if (this->PieceOfPatch(p) == this->PieceOfPatch(patch) &&
-        (foot.Place - place).squaredNorm() < (nearest.Place - place).squaredNorm())
+    if ((foot.Place - place).squaredNorm() < (nearest.Place - place).squaredNorm())
     {
       nearest = foot;
     }

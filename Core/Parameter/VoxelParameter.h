@@ -126,7 +126,7 @@ ParameterFolds CountFolds(
   const VoxelParameter& solved, double orientation, const Execution& execution);
 
 /**
- * Solves for u, v and w, one after the other. Time: 20 to 80 iterations of conjugate gradients with
+ * Solves for u, v and w, one after the other. Time: 20 to 81 iterations of conjugate gradients with
  * multigrid, whatever the size; with polynomial gradients 70 to 120. The result does not depend on
  * the number of threads.
  *

@@ -135,6 +135,7 @@ TEST(HexRemesh, HoldsTheVolume)
   const vtkNew<vtkPolyData> surface = Ball();
   const double volume = VolumeOf(surface, 1);
   Remeshed mesh(surface);
+  const WarningLog warnings(mesh.Filter);
   for (const auto& [edge, share] : { std::pair(2.0, 0.002), { 1.0, 0.002 }, { 0.5, 0.002 } })
   {
     mesh.Filter->SetEdgeLength(edge);
@@ -146,6 +147,7 @@ TEST(HexRemesh, HoldsTheVolume)
       EXPECT_LT(cells->GetFieldData()->GetArray(distance)->GetComponent(0, 1), 0.5) << edge;
     }
   }
+  EXPECT_EQ(warnings.Text, "");
 }
 
 // Of shapes with other proportions and with sharp edges surface and cells are nowhere half a voxel

@@ -4,6 +4,7 @@
 #include "SplineModels.h"
 
 #include "vtkImageData.h"
+#include "vtkIntArray.h"
 #include "vtkPolyData.h"
 
 #include <gtest/gtest.h>
@@ -237,6 +238,55 @@ TEST(TSplineSourcePoints, ImageOfACurvedSplineUsesItsInverseMap)
     }
   }
   EXPECT_GT(inside, 2000);
+}
+
+// A spline that was fitted over the domain of a segment stands for points with its label alone, where
+// points have labels; one of segment 0, without a domain, for all.
+TEST(TSplineSourcePoints, ASplineOfASegmentStandsForItsLabelAlone)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(24, 24, 5);
+  image->SetSpacing(0.1, 0.1, 0.25);
+  vtkNew<vtkIntArray> labels;
+  labels->SetName("Segment");
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    labels->InsertNextValue(image->GetPoint(i)[0] < 1.0 ? 3 : 0);
+  }
+  for (const bool labelled : { true, false })
+  {
+    for (const int segment : { 3, 0 })
+    {
+      TSplineModel model = QuarterAnnulus(3, 1);
+      model.Segment.assign(model.Spline.Size(), segment);
+      auto source = MakeSource(model, vtkTSplineSource::IMAGE);
+      if (labelled)
+      {
+        image->GetPointData()->AddArray(labels);
+      }
+      else
+      {
+        image->GetPointData()->RemoveArray("Segment");
+      }
+      source->SetInputData(1, image);
+      source->Update();
+      vtkDataArray* mask = PointArray(source->GetOutput(), "vtkValidPointMask");
+      vtkDataArray* radial = PointArray(source->GetOutput(), "Radial");
+      for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+      {
+        const double* x = image->GetPoint(i);
+        const double r = std::hypot(x[0], x[1]);
+        const bool isInside = r > 1.001 && r < 1.999, isFar = r < 0.5 || r > 2.5;
+        const bool isOwn = !labelled || segment == 0 || labels->GetValue(i) == segment;
+        if (isInside || isFar || !isOwn)
+        {
+          const bool found = isInside && isOwn;
+          ASSERT_EQ(mask->GetTuple1(i), found) << labelled << segment << " " << x[0] << " " << x[1];
+          ASSERT_NEAR(radial->GetTuple1(i), found ? r * r : 0.0, 1e-8);
+        }
+      }
+    }
+  }
 }
 
 TEST(TSplineSourcePoints, PointsKeepTheirDataSetAndMarkThoseOutside)

@@ -17,6 +17,7 @@ assert len(reference["Block1"]) == 13 and len(reference["SphereCorners"]) == 16
 for name in ("Shared", "Spread"):  # picked corners are used: automatic ones are moved nowhere
     assert len(reference[f"{name}Corners"]) == 16 and reference[f"{name}Snaps"].max() > 0.3
 same(reference, "DomainUnderRanks.py",
-     lambda output: (fault(output), asks_for_an_update(output), says("Domains are made on one process", 5)(output)),
+     lambda output: (fault(output), asks_for_an_update(output),
+                     says("Domains are made on one process", 5)(output)),
      lengths_only=["SphereCorners"])  # pieces of the sphere: other numbers of points
 print(len(reference["Points0"]), "points under 1, 2, 3 ranks")

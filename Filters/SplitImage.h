@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
 /// An image split into segments, the first steps of a reconstruction.
-#ifndef SegmentedImage_h
-#define SegmentedImage_h
+#ifndef SplitImage_h
+#define SplitImage_h
 
 #include "ChainStep.h"
 
@@ -14,7 +14,7 @@ namespace trivariate
 {
 struct Segmentation
 {
-  bool IsDone = false;      ///< whether the image has its labels, the point array Segment, already
+  bool HasLabels = false;      ///< the image has the point array Segment already
   int NumberOfSegments = 0; ///< 0 looks for a good number
 };
 

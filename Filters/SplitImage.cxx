@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SegmentedImage.h"
+#include "SplitImage.h"
 
 #include "vtkSegmentTopology.h"
 #include "vtkTextureSegmentation.h"
@@ -45,7 +45,7 @@ vtkSmartPointer<vtkImageData> SplitImage(
   vtkNew<vtkSegmentTopology> topology;
   topology->SetController(nullptr);
   topology->SetInputData(image);
-  if (!wanted.IsDone)
+  if (!wanted.HasLabels)
   {
     segmentation->SetController(nullptr);
     segmentation->SetInputData(image);
