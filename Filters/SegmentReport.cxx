@@ -105,8 +105,8 @@ struct RoundTrip
   vtkDataArray* Found;
 };
 
-RoundTrip EvaluateImage(const ReportInput& input, const TSplineModel& model, bool bySegment,
-  const Execution& execution)
+RoundTrip EvaluateImage(
+  const ReportInput& input, const TSplineModel& model, bool bySegment, const Execution& execution)
 {
   RoundTrip trip;
   trip.Image.TakeReference(input.Lattice->NewInstance());

@@ -14,7 +14,7 @@ namespace trivariate
 {
 struct Segmentation
 {
-  bool HasLabels = false;      ///< the image has the point array Segment already
+  bool HasLabels = false;   ///< the image has the point array Segment already
   int NumberOfSegments = 0; ///< 0 looks for a good number
 };
 

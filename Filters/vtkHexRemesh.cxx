@@ -225,7 +225,8 @@ void vtkHexRemesh::Remesh(vtkInformationVector** inputVector, vtkInformationVect
     std::max(report.Distances.ToFaces.Largest, report.Distances.FromFaces.Largest);
   if (this->CellsPerBlock == 0 && farthest > std::max(options.CellLength, voxel))
   {
-    vtkWarningMacro("The cells are up to "
+    vtkWarningMacro(
+      "The cells are up to "
       << farthest << " from the surface, more than they are long (" << options.CellLength
       << "), and may not hold its volume: the domain does not fit limbs or pits of the segment "
          "there. Try more cubes or other corners; PatchDistance and FaceDistance tell more.");

@@ -60,8 +60,8 @@ enum Outputs
 };
 
 // Where the steps end, as shares of the progress.
-constexpr double Whole = 0.23, Bounded = 0.27, LaidOut = 0.35, Filled = 0.5,
-                 FilledAgain = 0.6, AllFitted = 0.9;
+constexpr double Whole = 0.23, Bounded = 0.27, LaidOut = 0.35, Filled = 0.5, FilledAgain = 0.6,
+                 AllFitted = 0.9;
 
 //------------------------------------------------------------------------------
 // The image with these arrays only, and labels (or null: none).

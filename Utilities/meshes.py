@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Domains that domains.py saved, and meshes of hexahedra in them."""
+import math
+
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
@@ -35,6 +37,24 @@ def volumes_of(cells):
     quality.SetHexQualityMeasureToVolume()
     quality.Update()
     return vtk_to_numpy(quality.GetOutput().GetCellData().GetArray("Quality"))
+
+
+def describe(mesh, labelled):
+    """Hexahedra of Hex Remesh in an image of segments: inverted cells, Jacobians, volume, distance."""
+    field = mesh.GetFieldData()
+    before, after = field.GetArray("InvertedCells").GetTuple(0)
+    least, mean = field.GetArray("ScaledJacobian").GetTuple(0)
+    voxel = math.prod(labelled.GetSpacing())
+    voxels = numpy.isin(vtk_to_numpy(labelled.GetPointData().GetArray("Segment")),
+                        vtk_to_numpy(mesh.GetCellData().GetArray("Segment"))).sum()
+    farthest = {key: field.GetArray(name).GetComponent(0, 1) / voxel ** (1 / 3)
+                for key, name in (("surface_to_cells", "PatchDistance"),
+                                  ("cells_to_surface", "FaceDistance"))}
+    return {"cells": mesh.GetNumberOfCells(),
+            "inverted_cells": {"before": int(before), "after": int(after)},
+            "min_scaled_jacobian": least, "mean_scaled_jacobian": mean,
+            "volume_ratio": float(volumes_of(mesh).sum() / (voxels * voxel)),
+            "distance_voxels": farthest}
 
 
 def image_around(surface):

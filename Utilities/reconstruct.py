@@ -254,24 +254,11 @@ class Segments:
         if self.hexahedra is None:
             return {"mean_scaled_jacobian": None, "inverted_cells_before": None,
                     "inverted_cells_after": None, "hexahedra": None}
-        mesh = output_of(self.hexahedra)
-        field = mesh.GetFieldData()
-        before, after = field.GetArray("InvertedCells").GetTuple(0)
-        least, mean = field.GetArray("ScaledJacobian").GetTuple(0)
         labelled = output_of(self.labelled if self.whole is None else self.whole)
-        voxel = math.prod(labelled.GetSpacing())
-        counts = numpy.isin(vtk_to_numpy(labelled.GetPointData().GetArray("Segment")),
-                            vtk_to_numpy(mesh.GetCellData().GetArray("Segment"))).sum()
-        farthest = {key: field.GetArray(name).GetComponent(0, 1) / voxel ** (1 / 3)
-                    for key, name in (("surface_to_cells", "PatchDistance"),
-                                      ("cells_to_surface", "FaceDistance"))}
-        return {"mean_scaled_jacobian": mean, "inverted_cells_before": int(before),
-                "inverted_cells_after": int(after),
-                "hexahedra": {"cells": mesh.GetNumberOfCells(),
-                              "inverted_cells": {"before": int(before), "after": int(after)},
-                              "min_scaled_jacobian": least, "mean_scaled_jacobian": mean,
-                              "volume_ratio": float(meshes.volumes_of(mesh).sum() / (counts * voxel)),
-                              "distance_voxels": farthest}}
+        told = meshes.describe(output_of(self.hexahedra), labelled)
+        return {"mean_scaled_jacobian": told["mean_scaled_jacobian"],
+                "inverted_cells_before": told["inverted_cells"]["before"],
+                "inverted_cells_after": told["inverted_cells"]["after"], "hexahedra": told}
 
     def save(self, path):
         for name, output in (("segments.vti", self.labelled), ("boundary.vtp", self.surfaces),

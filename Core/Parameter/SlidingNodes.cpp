@@ -60,9 +60,8 @@ SlidingNodes::SlidingNodes(
     Vector3d& place = mesh.Places[node];
     if (this->Kinds[node] == OnSurface)
     {
-      this->Feet[node] = start == InPatches
-                           ? surface.NearestOnPatch(this->Support[node], place)
-                           : surface.NearestOnPieceOf(this->Support[node], place);
+      this->Feet[node] = start == InPatches ? surface.NearestOnPatch(this->Support[node], place)
+                                            : surface.NearestOnPieceOf(this->Support[node], place);
     }
     place = this->Allowed(static_cast<Index>(node), place, this->Feet[node]);
   }

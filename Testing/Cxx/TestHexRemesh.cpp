@@ -181,8 +181,7 @@ TEST(HexRemesh, IsOnTheSurface)
 
 TEST(HexRemesh, WarnsOfLimbsThatItDoesNotReach)
 {
-  const vtkNew<vtkPolyData> surface = SurfaceOf(11,
-    [](const double* p)
+  const vtkNew<vtkPolyData> surface = SurfaceOf(11, [](const double* p)
     { return vtkMath::Norm(p) < 4.5 || (std::hypot(p[0], p[1]) < 0.8 && std::abs(p[2]) < 10.5); });
   Remeshed mesh(surface);
   const WarningLog warnings(mesh.Filter);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Trivariate authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "TSpline/Evaluator.h"
 #include "SplineModels.h"
+#include "TSpline/Evaluator.h"
 
 #include "vtkImageData.h"
 #include "vtkIntArray.h"
@@ -240,8 +240,8 @@ TEST(TSplineSourcePoints, ImageOfACurvedSplineUsesItsInverseMap)
   EXPECT_GT(inside, 2000);
 }
 
-// A spline that was fitted over the domain of a segment stands for points with its label alone, where
-// points have labels; one of segment 0, without a domain, for all.
+// A spline that was fitted over the domain of a segment stands for points with its label alone,
+// where points have labels; one of segment 0, without a domain, for all.
 TEST(TSplineSourcePoints, ASplineOfASegmentStandsForItsLabelAlone)
 {
   vtkNew<vtkImageData> image;
