@@ -84,19 +84,6 @@ double DeflatedBytes(
 }
 
 //------------------------------------------------------------------------------
-// Some of the splines' segments have to occur among the labels.
-void CheckPresent(const std::vector<std::int32_t>& segments,
-  const std::map<int, std::vector<Index>>& voxels, bool bySegment)
-{
-  const auto occurs = [&voxels](std::int32_t segment) { return voxels.count(segment) > 0; };
-  if (bySegment && std::none_of(segments.begin(), segments.end(), occurs))
-  {
-    throw std::invalid_argument("No voxel has the label " + std::to_string(segments.front()) +
-                                " of the T-spline; choose the labels that it was fitted with.");
-  }
-}
-
-//------------------------------------------------------------------------------
 // The attribute at each voxel by the inverse map.
 struct RoundTrip
 {
@@ -294,7 +281,6 @@ std::vector<ReportRow> MakeReport(const ReportInput& input, const Execution& exe
 
   const std::vector<std::int32_t> segments = SegmentsOf(model);
   const bool bySegment = GoBySegments(model, input.Labels >= 0);
-  CheckPresent(segments, voxels, bySegment);
   const RoundTrip trip = EvaluateImage(input, model, bySegment, execution.Part(0.0, 0.4));
   std::vector<ReportRow> rows;
   Errors total;

@@ -82,8 +82,7 @@
  *
  * @par Errors
  * An image without points or without the chosen array, with more than one component, NaN or
- * infinity, labels that are no whole numbers or of none of the
- * spline's segments or, for splines of several, none; a grid
+ * infinity, labels that are no whole numbers or, for splines of several segments, none; a grid
  * that is no T-spline or has no attribute of that name; too little memory.
  *
  * @sa vtkTSplineFit vtkTSplineSource vtkTSplineReconstruction

@@ -141,21 +141,6 @@ TEST(ReconstructionReport, TakesErrorsOverADomainFromTheFit)
   report->Update();
   EXPECT_EQ(DomainIn(report, 1), "LayeredCubes");
 
-  // Of labels that are not the spline's nothing can be told.
-  vtkNew<vtkIntArray> others;
-  others->DeepCopy(labels);
-  for (vtkIdType i = 0; i < others->GetNumberOfValues(); ++i)
-  {
-    others->SetValue(i, labels->GetValue(i) == 1 ? 7 : 0);
-  }
-  image->GetPointData()->AddArray(others);
-  image->Modified();
-  ErrorLog errors(report);
-  report->Update();
-  EXPECT_NE(errors.TakeOnly().find("No voxel has the label 1 of the T-spline"), std::string::npos);
-  image->GetPointData()->AddArray(labels);
-  image->Modified();
-
   // Where nothing tells what the fit ended with, the array's parameters count.
   report->SetInputConnection(3, nullptr);
   report->Update();

@@ -32,6 +32,7 @@ def make_data():
         writer = vtkXMLImageDataWriter()
         writer.SetInputConnection(source.GetOutputPort())
         writer.SetFileName(f"data/{volume}.vti")
+        writer.SetDataModeToBinary()  # appended data do not read back
         writer.Write()
 
 
