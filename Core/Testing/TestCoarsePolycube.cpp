@@ -150,8 +150,8 @@ TEST(PolycubeFit, FindsTheCornersOfABox)
   EXPECT_LT(fit.Distance, 0.02);
 }
 
-// A crown of two by one with two roots that taper, oblique, around a cleft a fifth as wide. One is a
-// little thicker: no exact symmetry leaves it to rounding what the search finds.
+// A crown of two by one with two roots that taper, oblique, around a cleft a fifth as wide. One is
+// a little thicker: no exact symmetry leaves it to rounding what the search finds.
 SurfaceMesh TwoRooted()
 {
   const auto inside = [](int i, int j, int k)
