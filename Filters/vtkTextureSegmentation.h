@@ -28,8 +28,9 @@
  * @par Cost
  * Time linear in the number of points; see TextureWindow.h for the attributes' part. Memory: 48
  * bytes a point, 4 a point and attribute (8 with OutputAttributes), 8 a segment for each point near
- * an interface (all of them have to fit), 156 GreyLevels^2 a segment, under several processes 25 bytes more for each point of the whole volume on every
- * process. Threaded with vtkSMPTools; the result does not depend on the number of threads.
+ * an interface (all of them have to fit), 156 GreyLevels^2 a segment, under several processes 25
+ * bytes more for each point of the whole volume on every process. Threaded with vtkSMPTools; the
+ * result does not depend on the number of threads.
  *
  * @par Distributed data
  * Every process works on its piece, with ghost levels (3 WindowRadius + 1) around it. A sample, the

@@ -18,7 +18,6 @@ own; seconds are those of the processor.
 """
 import argparse
 import json
-import os
 import pathlib
 import resource
 import subprocess

@@ -387,7 +387,7 @@ def main():
             step("hexahedra_of_segments", segments.fill)
     resampled = step("resample", lambda: evaluate(path("resampled.vti"), model, "Image",
                                                   Points=segments.labelled or source))
-    hexes = step("hexahedra", lambda: evaluate(path("hexes.vtu"), model, "Linear Hexahedra"))
+    step("hexahedra", lambda: evaluate(path("hexes.vtu"), model, "Linear Hexahedra"))
     bezier = step("bezier", lambda: evaluate(path("bezier.vtu"), model, "Bezier Hexahedra"))
     measured, fitted_over = step("report", measure, path("report.csv"), source, name, model,
                                  simple.OutputPort(fit, 1), segments)

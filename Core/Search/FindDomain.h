@@ -44,8 +44,8 @@ struct DomainOptions
  * relaxed if wanted (RelaxedLayout.h).
  *
  * All this is done on the surface as PosedSurface.h turns and sorts it: neither the order of its
- * points and triangles nor a rigid motion changes the result, but for a surface that is round. On
- * one with exact symmetries a rotation may lead to another domain that is about as good.
+ * points and triangles nor a rigid motion changes the result, unless the surface is round. On one
+ * with exact symmetries a rotation may lead to another domain that is about as good.
  *
  * Throws std::invalid_argument for a surface of several pieces, std::runtime_error with the reasons
  * (and the place of a handle) where no domain can be laid out. O(n log n): 5 to 25 s
