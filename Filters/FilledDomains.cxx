@@ -113,8 +113,15 @@ FilledDomains FillAll(vtkImageData* image, vtkPolyData* patches, vtkUnstructured
   hexahedra->SetInputDataObject(0, image);
   hexahedra->SetInputDataObject(1, patches);
   hexahedra->SetInputDataObject(2, polycubes);
-  ChainStep(hexahedra, chain, at(Parameterized), to).RunTelling();
-  domains.Hexahedra = hexahedra->GetHexahedra();
+  try
+  {
+    ChainStep(hexahedra, chain, at(Parameterized), to).RunTelling();
+    domains.Hexahedra = hexahedra->GetHexahedra();
+  }
+  catch (const std::runtime_error& reason) // no fit needs them
+  {
+    chain.Warnings.push_back(std::string("There are no hexahedra: ") + reason.what());
+  }
   return domains;
 }
 

@@ -25,7 +25,7 @@ struct FilledDomains
   vtkSmartPointer<vtkUnstructuredGrid> Polycubes; ///< its output 1
   vtkSmartPointer<vtkPartitionedDataSetCollection> Blocks; ///< and its output 2
   /// Output 1 of vtkHexRemesh, with the field data InvertedCells (before and after repair) and
-  /// ScaledJacobian (least and mean).
+  /// ScaledJacobian (least and mean); null where that failed, which is a warning.
   vtkSmartPointer<vtkUnstructuredGrid> Hexahedra;
   std::map<int, int> BlocksOf; ///< of the segments that have a domain: how many blocks
   std::set<int> Folded;        ///< those with an inverted cell in their blocks

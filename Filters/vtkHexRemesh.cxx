@@ -23,9 +23,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 using namespace trivariate;
 
@@ -146,6 +148,26 @@ void CheckImage(vtkImageData* image, vtkPolyData* patches)
   }
 }
 
+// " (segment 1: 3, segment 4: 2)"; nothing of the only segment.
+std::string InvertedBySegment(const std::vector<Index>& inBlocks, const std::vector<int>& segments)
+{
+  std::map<int, Index> counts;
+  for (std::size_t block = 0; block < segments.size(); ++block)
+  {
+    counts[segments[block]] += inBlocks[block];
+  }
+  std::string list;
+  for (const auto& [segment, count] : counts)
+  {
+    if (count > 0 && counts.size() > 1)
+    {
+      list += (list.empty() ? " (segment " : ", segment ") + std::to_string(segment) + ": " +
+              std::to_string(count);
+    }
+  }
+  return list.empty() ? list : list + ")";
+}
+
 // A sentence where arrays at the nodes are not finite, or none.
 std::string NotFiniteIn(vtkPointData* attributes)
 {
@@ -216,8 +238,9 @@ void vtkHexRemesh::Remesh(vtkInformationVector** inputVector, vtkInformationVect
   if (report.End.Inverted > 0)
   {
     vtkWarningMacro(
-      << report.End.Inverted << " of " << report.End.Cells
-      << " cells are inverted. Features thinner than four voxels, or corners that do "
+      << report.End.Inverted << " of " << report.End.Cells << " cells are inverted"
+      << InvertedBySegment(report.End.InvertedIn, domain.Segments)
+      << ". Features thinner than four voxels, or corners that do "
          "not fit the shape, cause this; try a smaller EdgeLength, more cubes or other "
          "corners.");
   }

@@ -185,6 +185,13 @@ vtkDoubleArray* vtkPolycubeDomain::GetStartCorners()
   corners->SetNumberOfTuples(0);
   if (this->Internal->Guess)
   {
+    // Nobody asked this search to stop yet, nor, once it has, the next update.
+    const auto forgetAborts = [this]()
+    {
+      this->AbortExecute = 0;
+      this->SetAbortOutput(false);
+    };
+    forgetAborts();
     try
     {
       for (const Eigen::Vector3d& corner : this->Internal->FindStartCorners(this))
@@ -194,14 +201,13 @@ vtkDoubleArray* vtkPolycubeDomain::GetStartCorners()
     }
     catch (const Aborted&)
     {
-      this->UpdateProgress(1.0);
-      this->AbortExecute = 0; // obeyed: the next update is not to stop
-      this->SetAbortOutput(false);
+      forgetAborts();
     }
     catch (const std::exception&)
     {
       // The next update tells what is wrong with the shape.
     }
+    this->UpdateProgress(1.0);
   }
   if (corners->GetNumberOfTuples() == 0)
   {

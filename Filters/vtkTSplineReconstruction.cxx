@@ -290,7 +290,10 @@ std::vector<FilledDomains> vtkTSplineReconstruction::Fill(vtkImageData* segments
         domains.emplace_back(FillDomains(segments, patches, polycubes, chain, LaidOut, Filled));
       polycubes->ShallowCopy(filled.Polycubes);
       vtkImageData::GetData(outputVector, FIELDS)->ShallowCopy(filled.Fields);
-      vtkUnstructuredGrid::GetData(outputVector, HEXAHEDRA)->ShallowCopy(filled.Hexahedra);
+      if (filled.Hexahedra)
+      {
+        vtkUnstructuredGrid::GetData(outputVector, HEXAHEDRA)->ShallowCopy(filled.Hexahedra);
+      }
       vtkPartitionedDataSetCollection::GetData(outputVector, BLOCKS)->ShallowCopy(filled.Blocks);
       if (given.empty())
       {

@@ -2,14 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTSplineSource.h"
 
+#include "FilterRun.h"
+#include "GatherSamples.h"
 #include "SMPExecution.h"
 #include "SegmentPoints.h"
+#include "SharedPieces.h"
 #include "TSpline/BezierMesh.h"
 #include "TSplineCells.h"
 #include "TSplineGrid.h"
 #include "TSplinePoints.h"
 
 #include "vtkDataSet.h"
+#include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -43,6 +47,57 @@ vtkSmartPointer<vtkPointSet> Broadcast(vtkPointSet* grid, vtkMultiProcessControl
   }
   controller->Broadcast(everywhere, 0);
   return everywhere;
+}
+
+constexpr const char* LabelName = "Segment";
+
+// Those of the points here; null: none.
+vtkDataArray* LabelsHere(vtkInformation* pointsInfo)
+{
+  vtkDataSet* points = pointsInfo ? vtkDataSet::GetData(pointsInfo) : nullptr;
+  return points ? points->GetPointData()->GetArray(LabelName) : nullptr;
+}
+
+// Those of an image that is spread over the processes, on process 0. Collective. Throws
+// std::invalid_argument on one process where they cannot be brought together.
+vtkSmartPointer<vtkDataArray> GatherLabels(
+  vtkInformation* pointsInfo, vtkMultiProcessController* controller)
+{
+  trivariate::ImageSamples samples;
+  std::string fault = trivariate::FaultOf(
+    [&]()
+    {
+      if (vtkDataArray* labels = LabelsHere(pointsInfo))
+      {
+        samples = trivariate::ReadArrays(vtkImageData::GetData(pointsInfo), { labels });
+      }
+    });
+  if (!trivariate::GatherSamples(samples, fault, controller))
+  {
+    if (!fault.empty())
+    {
+      throw std::invalid_argument(fault);
+    }
+    throw trivariate::Aborted(); // another process tells why
+  }
+  const int components = samples.Components();
+  if (components == 0)
+  {
+    return nullptr;
+  }
+  auto labels = vtkSmartPointer<vtkDoubleArray>::New();
+  labels->SetName(LabelName);
+  labels->SetNumberOfComponents(components);
+  labels->SetNumberOfTuples(samples.Count());
+  auto value = samples.Values.begin();
+  for (int c = 0; c < components; ++c)
+  {
+    for (vtkIdType point = 0; point < samples.Count(); ++point)
+    {
+      labels->SetTypedComponent(point, c, *value++);
+    }
+  }
+  return labels;
 }
 
 // The lattice that the pipeline announces for an image; its data may be a piece of it.
@@ -172,18 +227,16 @@ void vtkTSplineSource::CheckSettings(vtkDataObject* points) const
 }
 
 void vtkTSplineSource::Evaluate(
-  vtkPointSet* grid, vtkInformation* pointsInfo, vtkDataObject* output)
+  vtkPointSet* grid, vtkInformation* pointsInfo, vtkDataArray* labels, vtkDataObject* output)
 {
   const trivariate::Execution execution = trivariate::SMPExecution(this);
   const trivariate::TSplineModel model = trivariate::TSplineFromGrid(grid);
   const trivariate::BezierMesh mesh(model.Spline, execution.Part(0.0, 0.2));
   const trivariate::TSplineView view{ model, mesh, this->ComputeGradients, this->ComputeJacobian };
   const trivariate::Execution rest = execution.Part(0.2, 1.0);
-  const auto fill = [&view, pointsInfo, output](const trivariate::Execution& part)
+  const auto fill = [&view, labels, output](const trivariate::Execution& part)
   {
     vtkDataSet* points = vtkDataSet::SafeDownCast(output);
-    vtkDataSet* labelled = pointsInfo ? vtkDataSet::GetData(pointsInfo) : nullptr;
-    vtkDataArray* labels = labelled ? labelled->GetPointData()->GetArray("Segment") : nullptr;
     if (trivariate::GoBySegments(view.Model, labels != nullptr))
     {
       trivariate::FillPointsOfSegments(view, labels, points, part);
@@ -240,6 +293,11 @@ int vtkTSplineSource::RequestData(
   try
   {
     this->CheckSettings(pointsInfo ? vtkDataObject::GetData(pointsInfo) : nullptr);
+    const bool gathering = this->OutputType == IMAGE && pointsInfo &&
+                           trivariate::ArePiecesShared(this->Controller, outputVector);
+    const vtkSmartPointer<vtkDataArray> labels =
+      gathering ? GatherLabels(pointsInfo, this->Controller)
+                : vtkSmartPointer<vtkDataArray>(LabelsHere(pointsInfo));
     if (!alone && this->OutputType == POINTS)
     {
       grid = Broadcast(grid, this->Controller);
@@ -253,7 +311,7 @@ int vtkTSplineSource::RequestData(
       }
       return 1; // all is made where the spline is
     }
-    this->Evaluate(grid, pointsInfo, output);
+    this->Evaluate(grid, pointsInfo, labels, output);
   }
   catch (const trivariate::Aborted&)
   {

@@ -71,7 +71,8 @@
  *
  * @par MPI
  * The spline lives on the rank that has piece 0, and so do all outputs but POINTS, for which it is
- * sent to all ranks: each evaluates its own piece of port 1.
+ * sent to all ranks: each evaluates its own piece of port 1. For IMAGE, where all ranks update, the
+ * labels of port 1 are gathered to that rank.
  *
  * @par Errors
  * A grid without control points or that is no T-spline (see TSplineFromGrid), POINTS without a
@@ -89,6 +90,7 @@
 #include <array>  // for the positions of the surfaces
 #include <vector> // for the positions of the surfaces
 
+class vtkDataArray;
 class vtkMultiProcessController;
 class vtkPointSet;
 
@@ -205,7 +207,8 @@ private:
   void CheckSettings(vtkDataObject* points) const;
 
   /// Fills the output from a T-spline grid with points.
-  void Evaluate(vtkPointSet* grid, vtkInformation* pointsInfo, vtkDataObject* output);
+  void Evaluate(
+    vtkPointSet* grid, vtkInformation* pointsInfo, vtkDataArray* labels, vtkDataObject* output);
 
   int OutputType = LINEAR_HEXES;
   int Dimensions[3] = { 64, 64, 64 };

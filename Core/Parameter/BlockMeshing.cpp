@@ -135,7 +135,7 @@ BlockMesh MakeBlockMesh(const BlockDomain& domain, const BlockMeshOptions& optio
   const std::vector<PatchMap> maps = MapPatches(domain, execution.Part(0.0, 0.1));
   const DomainSurface surface(domain, MeanLength(domain, levels[0]));
   BlockMesh mesh = StartOfBlockMesh(domain, maps, levels.back());
-  SlidingNodes sliding(surface, mesh, options.Freedom);
+  SlidingNodes sliding(surface, mesh, options.Freedom, execution.Part(0.1, 0.1));
   BoundaryFit fit(surface, mesh);
   for (std::size_t level = levels.size(); level-- > 0;)
   {
@@ -168,7 +168,8 @@ BlockMesh RefineBlockMesh(const BlockDomain& domain, const BlockMesh& mesh,
   // The borders that hold nodes are those that held them in the mesh, if it was made at its size.
   const DomainSurface surface(domain, MeanLength(domain, mesh.Sizes));
   BlockMesh start = mesh;
-  const SlidingNodes slid(surface, start, options.Freedom, SlidingNodes::WhereTheySlid);
+  const SlidingNodes slid(
+    surface, start, options.Freedom, execution.Part(0.0, 0.1), SlidingNodes::WhereTheySlid);
   SlidingNodes sliding(refined, start, slid);
   BoundaryFit fitted(surface, start);
   fitted.Assign(start.Places, execution);
@@ -177,7 +178,7 @@ BlockMesh RefineBlockMesh(const BlockDomain& domain, const BlockMesh& mesh,
   RepairOptions repair = options.Repair;
   repair.MostRounds = 1; // what folds stayed in the mesh would stay again
   repair.MostSmoothing = before.Inverted > 0 ? repair.MostSmoothing : 0;
-  Repair(refined, sliding, fit, CellTargets(refined), repair, execution);
+  Repair(refined, sliding, fit, CellTargets(refined), repair, execution.Part(0.1, 1.0));
   if (report)
   {
     *report = { before, QualityOf(refined, execution),

@@ -38,7 +38,13 @@ CellQuality QualityOf(const BlockMesh& mesh, const Execution& execution)
   std::sort(volumes.begin(), volumes.end());
   CellQuality quality;
   quality.Cells = static_cast<Index>(n);
-  quality.Inverted = std::count_if(least.begin(), least.end(), [](double d) { return !(d > 0.0); });
+  quality.InvertedIn.resize(mesh.Sizes.size());
+  for (std::size_t c = 0; c < n; ++c)
+  {
+    quality.InvertedIn[cells.BlockOf[c]] += least[c] > 0.0 ? 0 : 1;
+  }
+  quality.Inverted =
+    std::accumulate(quality.InvertedIn.begin(), quality.InvertedIn.end(), Index(0));
   quality.LeastJacobian = *std::min_element(jacobians.begin(), jacobians.end());
   quality.MeanJacobian = std::accumulate(jacobians.begin(), jacobians.end(), 0.0) / n;
   quality.LowRatio = volumes[n / 100];

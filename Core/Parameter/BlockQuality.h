@@ -12,8 +12,9 @@ namespace trivariate
 struct CellQuality
 {
   Index Cells = 0;
-  Index Inverted = 0;         ///< LeastDeterminant <= 0
-  double LeastJacobian = 0.0; ///< scaled, see ScaledJacobian in DomainLayers.h
+  Index Inverted = 0;            ///< LeastDeterminant <= 0
+  std::vector<Index> InvertedIn; ///< each block
+  double LeastJacobian = 0.0;    ///< scaled, see ScaledJacobian in DomainLayers.h
   double MeanJacobian = 0.0;
   double LowRatio = 0.0, HighRatio = 0.0; ///< of a cell's volume to its block's mean: 1, 99 percent
 };

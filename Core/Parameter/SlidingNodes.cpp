@@ -12,6 +12,8 @@ namespace
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+constexpr Index NodesBetweenChecks = 4096; // whether to go on: less than a second
+
 // Any two unit vectors across a third one.
 void Complete(Matrix3d& basis, int from)
 {
@@ -49,21 +51,31 @@ Vector3d NearestOfLine(const std::vector<Vector3d>& line, const Vector3d& p, Vec
 }
 
 //------------------------------------------------------------------------------
-SlidingNodes::SlidingNodes(
-  const DomainSurface& surface, BlockMesh& mesh, double freedom, Start start)
+SlidingNodes::SlidingNodes(const DomainSurface& surface, BlockMesh& mesh, double freedom,
+  const Execution& execution, Start start)
   : On(&surface)
   , Most(freedom)
 {
   this->FindKinds(mesh);
-  for (std::size_t node = 0; node < mesh.Places.size(); ++node)
+  const Index nodes = static_cast<Index>(mesh.Places.size());
+  for (Index first = 0; first < nodes; first += NodesBetweenChecks)
   {
-    Vector3d& place = mesh.Places[node];
-    if (this->Kinds[node] == OnSurface)
+    execution.Check(double(first) / nodes);
+    const auto put = [&, first](Index begin, Index end)
     {
-      this->Feet[node] = start == InPatches ? surface.NearestOnPatch(this->Support[node], place)
-                                            : surface.NearestOnPieceOf(this->Support[node], place);
-    }
-    place = this->Allowed(static_cast<Index>(node), place, this->Feet[node]);
+      for (Index node = first + begin; node < first + end; ++node)
+      {
+        Vector3d& place = mesh.Places[node];
+        if (this->Kinds[node] == OnSurface)
+        {
+          this->Feet[node] = start == InPatches
+                               ? surface.NearestOnPatch(this->Support[node], place)
+                               : surface.NearestOnPieceOf(this->Support[node], place);
+        }
+        place = this->Allowed(node, place, this->Feet[node]);
+      }
+    };
+    execution.ParallelFor(std::min(NodesBetweenChecks, nodes - first), put);
   }
 }
 

@@ -5,6 +5,7 @@
 #define trivariate_SlidingNodes_h
 
 #include "DomainSurface.h"
+#include "Execution.h"
 
 namespace trivariate
 {
@@ -36,8 +37,8 @@ public:
    * surface, in space. The surface must outlive this. O(n log n), times the number of patches for
    * nodes that slid.
    */
-  SlidingNodes(
-    const DomainSurface& surface, BlockMesh& mesh, double freedom, Start start = InPatches);
+  SlidingNodes(const DomainSurface& surface, BlockMesh& mesh, double freedom,
+    const Execution& execution, Start start = InPatches);
 
   /// The same where `mesh` is `coarse` at another resolution: the nearest point within reach from
   /// where the coarse nodes are.

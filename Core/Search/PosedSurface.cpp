@@ -47,7 +47,7 @@ struct Areas
   std::vector<double> Weights;
 };
 
-// Along the axes of a symmetric surface much is equal, and ties are broken by rounding.
+// Off the axes: along those of a symmetric surface much is equal, and rounding breaks the ties.
 Matrix3d Oblique()
 {
   return Eigen::AngleAxisd(1.0, Vector3d(0.5, 0.3, 0.7).normalized()).toRotationMatrix();

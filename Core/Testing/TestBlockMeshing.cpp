@@ -328,7 +328,9 @@ TEST(BlockMeshing, GivesUpOnHopelessBlocks)
   options.CellsPerBlock = 4; // one level
   Watch watch;
   const BlockMesh mesh = MakeBlockMesh(DomainOfSegment(blocks, cube), options, watch.Until(2.0));
-  EXPECT_GT(QualityOf(mesh, Execution()).Inverted, 32);
+  const CellQuality quality = QualityOf(mesh, Execution());
+  EXPECT_GT(quality.Inverted, 32);
+  EXPECT_EQ(quality.InvertedIn, std::vector<Index>{ quality.Inverted });
   EXPECT_LT(watch.Progress, 0.4); // one round of the four
 }
 
@@ -371,7 +373,7 @@ TEST(BlockMeshing, KeepsTheLastMeshWithoutFolds)
   }
   ASSERT_EQ(QualityOf(mesh, Execution()).Inverted, 0);
   const DomainSurface walls(domain, 1.0);
-  SlidingNodes sliding(walls, mesh, 7.0);
+  SlidingNodes sliding(walls, mesh, 7.0, Execution());
   BoundaryFit fit(walls, mesh);
   options.Repair.Fitting = 1e30;
   options.Repair.MostRounds = 0;

@@ -45,6 +45,45 @@ BlockDomain Lopsided()
   return DomainOfSegment(LayeredBlocks(domain, 2.0, Execution()), domain);
 }
 
+// The domain, and the same once more at another place.
+BlockDomain Twice(const BlockDomain& domain, const Vector3d& shift)
+{
+  DomainParts parts = domain;
+  const Index points = static_cast<Index>(domain.Points.size());
+  const Index surfacePoints = static_cast<Index>(domain.SurfacePoints.size());
+  const Index patches = static_cast<Index>(domain.Patches.size());
+  for (BlockPoints block : domain.Blocks)
+  {
+    std::transform(
+      block.begin(), block.end(), block.begin(), [points](Index p) { return p + points; });
+    parts.Blocks.push_back(block);
+  }
+  parts.Segments.insert(parts.Segments.end(), domain.Segments.begin(), domain.Segments.end());
+  for (const Vector3d& p : domain.Points)
+  {
+    parts.Points.push_back(p + shift);
+  }
+  for (const Vector3d& p : domain.SurfacePoints)
+  {
+    parts.SurfacePoints.push_back(p + shift);
+  }
+  for (const Index corner : domain.CornerOf)
+  {
+    parts.CornerOf.push_back(corner < 0 ? -1 : corner + points);
+  }
+  parts.Parameters.insert(
+    parts.Parameters.end(), domain.Parameters.begin(), domain.Parameters.end());
+  for (const Triangle& t : domain.Triangles)
+  {
+    parts.Triangles.push_back({ t[0] + surfacePoints, t[1] + surfacePoints, t[2] + surfacePoints });
+  }
+  for (const Index patch : domain.PatchOf)
+  {
+    parts.PatchOf.push_back(patch + patches);
+  }
+  return BlockDomain(std::move(parts));
+}
+
 // How far from their own patches nodes are, in the mean.
 double SlidBy(const BlockDomain& domain, const BlockMesh& mesh)
 {
@@ -93,9 +132,16 @@ TEST(BlockResampling, LeavesNodesWhereTheySlid)
 TEST(DomainSurface, FindsTheNearestPointOfAPiece)
 {
   const BlockDomain domain = Lopsided();
-  const DomainSurface surface(domain, 1.0);
+  const Vector3d shift(0.0, 9.0, 0.0);
+  const BlockDomain two = Twice(domain, shift);
+  const DomainSurface surface(domain, 1.0), surfaces(two, 1.0);
+  const Index other = static_cast<Index>(domain.Patches.size());
   for (const Vector3d& p : domain.SurfacePoints)
   {
-    ASSERT_LT((surface.NearestOnPieceOf(0, p).Place - p).norm(), 1e-12);
+    ASSERT_LT((surfaces.NearestOnPieceOf(0, p).Place - p).norm(), 1e-12);
+    ASSERT_LT((surfaces.NearestOnPieceOf(other, p + shift).Place - p - shift).norm(), 1e-12);
+    const Vector3d across = surface.NearestOnPieceOf(0, p + shift).Place;
+    ASSERT_GT((across - p - shift).norm(), 0.5);
+    ASSERT_LT((surfaces.NearestOnPieceOf(0, p + shift).Place - across).norm(), 1e-12);
   }
 }

@@ -32,7 +32,7 @@ BlockDomain BallWithLimb(double height, double sharpness)
 std::array<double, 2> Lacks(const BlockDomain& domain, BlockMesh mesh)
 {
   const DomainSurface surface(domain, 1.0);
-  const SlidingNodes sliding(surface, mesh, 0.5);
+  const SlidingNodes sliding(surface, mesh, 0.5, Execution());
   std::vector<Vector3d> targets = CellTargets(mesh);
   const double right = FacingFaces(sliding, mesh, targets).Energy(mesh.Places, sliding);
   for (Vector3d& lengths : targets)
@@ -63,7 +63,7 @@ TEST(FacingFaces, HaveTermsThatTellWhatAMoveChanges)
   options.Freedom = 20.0; // for the turned faces, below
   BlockMesh mesh = MakeBlockMesh(domain, options, Execution());
   const DomainSurface surface(domain, 1.0);
-  const SlidingNodes sliding(surface, mesh, options.Freedom);
+  const SlidingNodes sliding(surface, mesh, options.Freedom, Execution());
   for (Vector3d& place : mesh.Places)
   {
     place[0] *= -1.0;

@@ -121,6 +121,32 @@ TEST(OwnAxes, TurnWithThePointsAlsoWhereMomentsAreEqual)
   }
 }
 
+TEST(OwnAxes, CountAPointAsOftenAsItWeighs)
+{
+  for (const Vector3d& squares : { Vector3d(1, 2, 3), Vector3d(1, 1, 3), Vector3d(2, 2, 2) })
+  {
+    SCOPED_TRACE(squares.transpose());
+    // Moments are equal where each point counts as often as it is there.
+    Points all = Scattered(100, 3);
+    for (int i = 0; i < 100; ++i)
+    {
+      all.insert(all.end(), i % 4, Points(all)[i]);
+    }
+    all = WithMoments(all, squares);
+    const Points once(all.begin(), all.begin() + 100);
+    std::vector<double> weights;
+    for (int i = 0; i < 100; ++i)
+    {
+      weights.push_back(0.1 * (1 + i % 4)); // the unit does not matter
+    }
+    const std::optional<OwnAxes> weighted = FindOwnAxes(weights, once);
+    const std::optional<OwnAxes> repeated = FindOwnAxes(std::vector<double>(all.size(), 1.0), all);
+    ASSERT_TRUE(weighted && repeated);
+    EXPECT_LT((weighted->Frame - repeated->Frame).norm(), 1e-9);
+    EXPECT_NEAR(weighted->Frame.determinant(), 1.0, 1e-12);
+  }
+}
+
 // Third moments are zero along all axes of an S, which is not the same from both sides.
 TEST(OwnAxes, TellTheSidesOfAnS)
 {
@@ -144,6 +170,29 @@ TEST(OwnAxes, LeaveSymmetricFiguresTheSame)
   }
   ExpectSamePose(square, 1e-6, true);
   ExpectSamePose(cube, 1e-6, true);
+}
+
+// Harmonics of order 3 to 8 are told from round, those of order 9 are not.
+TEST(OwnAxes, AreOfPrismsOfUpToEightSides)
+{
+  for (int sides = 3; sides <= 9; ++sides)
+  {
+    SCOPED_TRACE(sides);
+    Points prism;
+    for (int i = 0; i < 2 * sides; ++i)
+    {
+      const double angle = 2.0 * std::acos(-1.0) * (i / 2) / sides;
+      prism.emplace_back(std::cos(angle), std::sin(angle), i % 2 ? 2.0 : -2.0);
+    }
+    if (sides == 9)
+    {
+      EXPECT_FALSE(FindOwnAxes(std::vector<double>(prism.size(), 1.0), prism));
+    }
+    else
+    {
+      ExpectSamePose(prism, 1e-6, true);
+    }
+  }
 }
 
 TEST(OwnAxes, AreNoneOfWhatIsRound)

@@ -12,8 +12,10 @@
 #include "vtkSMPTools.h"
 #include "vtkStructuredGrid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -229,6 +231,36 @@ TEST(HexRemesh, SharesTheNodesBetweenSegments)
     }
   }
   EXPECT_GT(shared, 100);
+}
+
+// Of two cubes; the second one is left-handed, and its sharp edges hold it so.
+TEST(HexRemesh, NamesTheSegmentOfInvertedCells)
+{
+  const vtkNew<vtkPolyData> surface = SurfaceOf(11,
+    [](const double* p)
+    {
+      const bool inside = std::abs(p[1]) < 4 && std::abs(p[2]) < 4 && std::abs(p[0]) < 10;
+      return inside && std::abs(p[0]) > 2 ? (p[0] < 0 ? 1 : 2) : 0;
+    });
+  Remeshed mesh(surface, false);
+  mesh.Domain->Update();
+  vtkNew<vtkUnstructuredGrid> polycube;
+  polycube->DeepCopy(mesh.Domain->GetPolycube());
+  ASSERT_EQ(polycube->GetNumberOfCells(), 2);
+  ASSERT_EQ(CellArray(polycube, "Segment")->GetComponent(1, 0), 2);
+  vtkNew<vtkIdList> ids;
+  polycube->GetCellPoints(1, ids);
+  const std::vector<vtkIdType> was(ids->begin(), ids->end());
+  std::rotate_copy(was.begin(), was.begin() + 4, was.end(), ids->begin());
+  polycube->GetCells()->ReplaceCellAtId(1, ids);
+  mesh.Filter->SetInputDataObject(2, polycube);
+  mesh.Filter->SetCellsPerBlock(4);
+  const WarningLog warnings(mesh.Filter);
+  mesh.Filter->Update();
+  EXPECT_GT(mesh.Filter->GetInvertedCells(), 32);
+  EXPECT_TRUE(warnings.Says(
+    "cells are inverted (segment 2: " + std::to_string(mesh.Filter->GetInvertedCells()) + ")."))
+    << warnings.Text;
 }
 
 TEST(HexRemesh, ResamplesGivenMeshes)

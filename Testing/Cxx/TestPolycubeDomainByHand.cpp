@@ -205,6 +205,12 @@ TEST(PolycubeDomain, StopsTheSearchForStartCorners)
     EXPECT_LT(stop.Where() - stop.AskedAt(), 0.1);
     EXPECT_EQ(manual->GetAbortExecute(), 0);
   }
+  manual->SetAbortExecute(1); // of a run that is over
+  EXPECT_EQ(StartCornersOf(manual), corners);
+  EXPECT_EQ(manual->GetProgress(), 1.0);
+  manual->SetNumberOfCubes(2, 1, 1); // of which nothing is known yet
+  EXPECT_EQ(StartCornersOf(manual).size(), 12u);
+  manual->SetNumberOfCubes(1, 1, 1);
   EXPECT_EQ(manual->GetPatches()->GetNumberOfCells(), triangles);
   manual->Modified();
   manual->Update();

@@ -9,7 +9,8 @@ from paraview.simple import *
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
-OUTPUTS = ["Image", "Linear Hexahedra", "Bezier Hexahedra", "Iso-Parametric Surfaces", "T-Mesh",
+OUTPUTS = ["Image", "Labelled Image",  # the latter of a spline that stands for a segment
+            "Linear Hexahedra", "Bezier Hexahedra", "Iso-Parametric Surfaces", "T-Mesh",
            "Points"]
 
 rank = vtkMultiProcessController.GetGlobalController().GetLocalProcessId()
@@ -28,10 +29,19 @@ def save(name, data):
     numpy.savez(f"{sys.argv[1]}-{name}-{rank}.npz", **arrays)
 
 
+of_segment = Calculator(Input=fit, ResultArrayName="Segment", Function="2",
+                        ResultArrayType="Int")
+ball = Calculator(Input=orbital, ResultArrayName="Segment", Function="if(mag(coords) < 6, 2, 1)")
+
 for name in OUTPUTS:
-    source = TSplineSource(Input=fit, OutputType=name, ComputeGradients=1, ComputeJacobian=1)
+    source = TSplineSource(Input=of_segment if name == "Labelled Image" else fit,
+                           OutputType=name.split()[-1] if "Image" in name else name,
+                           ComputeGradients=1, ComputeJacobian=1)
+    # A lattice, and points: a piece of them on each rank.
     if name in ("Image", "Points"):
-        source.Points = orbital  # its lattice, and its points: a piece on each rank
+        source.Points = orbital
+    elif name == "Labelled Image":
+        source.Points = ball
     source.UpdatePipeline()
     save(name, source.GetClientSideObject().GetOutputDataObject(0))
 orbital.UpdatePipeline()

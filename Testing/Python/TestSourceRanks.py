@@ -7,7 +7,8 @@ import numpy
 import Ranks
 
 SPREAD = ["Points", "Orbital"]
-GATHERED = ["Image", "Linear Hexahedra", "Bezier Hexahedra", "Iso-Parametric Surfaces", "T-Mesh"]
+GATHERED = ["Image", "Labelled Image", "Linear Hexahedra", "Bezier Hexahedra",
+            "Iso-Parametric Surfaces", "T-Mesh"]
 
 
 def run(ranks):
@@ -22,6 +23,8 @@ def by_place(part, array):
 
 whole = run(1)
 assert all(whole[name][0]["count"][0] > 100 for name in whole)
+found = whole["Labelled Image"][0]["point vtkValidPointMask"]
+assert 0 < found.sum() < len(found), "the labels say where the spline stands"
 for ranks in (2, 3):
     parts = run(ranks)
     for name in GATHERED:
